@@ -1,0 +1,19 @@
+"""Cases: scenes whose exact motion is known. ``CASES["spring"](damping=2).error(run)`` is one number.
+
+Each entry is a function of the case's parameters, all with defaults, that returns a Case.
+
+Slides S4, S9, S18; lectures/02_equation_of_motion.md.
+"""
+
+from .case import Case, Catalogue, Motion
+from .free_motion import free_fall, planar_flight, projectile_drag, spring, tumbling_box
+from .orbits import two_body_orbit
+from .tops import heavy_top, torque_free_top
+
+CASES = Catalogue("case", {
+    function.__name__: function
+    for function in (free_fall, projectile_drag, spring, planar_flight, tumbling_box, torque_free_top, heavy_top,
+                     two_body_orbit)
+})
+
+__all__ = ["CASES", "Case", "Motion"]
