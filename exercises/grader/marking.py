@@ -1,0 +1,87 @@
+"""Ask, judge, count points. `ask` is any function from a request's text to a response's text: the worker in this process
+(notebook), in a subprocess (shell), or in a sandbox (class)."""
+
+import json
+import math
+from dataclasses import dataclass
+
+from exercises.grader.check import SELF_STUDY_SEED
+from exercises.grader.judges import Verdict
+from exercises.grader.replies import BadReply, admit, pack, parse
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A call that brought no answer: it raised, or returned what no check can take."""
+    kind: str
+    message: str
+    lines: tuple = ()
+
+
+@dataclass(frozen=True)
+class Outcome:
+    case: object
+    calls: list
+    verdict: Verdict
+    printed: str = ""
+
+
+@dataclass(frozen=True)
+class Result:
+    check: object
+    outcomes: list
+
+    @property
+    def passed(self):
+        return all(outcome.verdict.passed for outcome in self.outcomes)
+
+    @property
+    def earned(self):
+        return self.check.points if self.passed else 0
+
+
+def mark(check, ask, seed=SELF_STUDY_SEED):
+    """The Result of one check. All calls of all its cases go in one message."""
+    cases = check.cases(seed)
+    calls = [check.calls_of(case) for case in cases]
+    request = [{"function": call.function, "arguments": [pack(argument) for argument in call.arguments]}
+               for group in calls for call in group]
+    answers = _read(ask(json.dumps({"calls": request}, allow_nan=False)), len(request), check.reply)
+    outcomes = []
+    for case, group in zip(cases, calls, strict=True):
+        mine, answers = answers[:len(group)], answers[len(group):]
+        outcomes.append(Outcome(case, group, _verdict(check, case, mine), "".join(text for _, text in mine)))
+    return Result(check, outcomes)
+
+
+def _verdict(check, case, answers):
+    values = [value for value, _ in answers]
+    failures = [value for value in values if isinstance(value, Failure)]
+    if failures:
+        return Verdict(math.inf, 0.0, None, failures[0], failures[0].message)
+    return check.judge(case.values, values)
+
+
+def _read(text, count, reply):
+    """[(value or Failure, what was printed)], one for each call, whatever the other side has sent."""
+    try:
+        replies = parse(text)["replies"]
+        if len(replies) != count:
+            raise BadReply(f"{len(replies)} replies came to {count} calls")
+        return [(_value(entry, reply), str(entry.get("printed", ""))) for entry in replies]
+    except (BadReply, KeyError, TypeError, AttributeError) as error:
+        return [(Failure("answer", f"the response cannot be read: {error}"), "")] * count
+
+
+def _value(entry, reply):
+    if "error" in entry:
+        error = entry["error"]
+        return Failure(str(error["kind"]), str(error["message"]), tuple(str(line) for line in error["lines"]))
+    try:
+        return admit(entry["value"], reply)
+    except BadReply as error:
+        return Failure("answer", str(error))
+
+
+def mark_all(checks, ask, seed=SELF_STUDY_SEED):
+    return [mark(check, ask, seed) for check in checks]

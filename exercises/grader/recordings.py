@@ -1,0 +1,93 @@
+"""What an engine answered, kept for where it is not installed.
+
+    python -m exercises.grader.recordings --unit 02       re-records, with the engines installed here
+
+An `EngineOracle` is an oracle for `judges.equal`. Where the engine can be imported it runs, else the committed
+recording speaks. Checks draw their cases from the recorded inputs (`pool`), so that every seed can be judged anywhere.
+"""
+
+import argparse
+import importlib.metadata
+import json
+import os
+import platform
+import sys
+from functools import cached_property
+from importlib.util import find_spec
+from pathlib import Path
+
+from exercises.grader.replies import pack, unpack
+
+
+class Unrecorded(Exception):
+    """The engine is not installed, and this input is not in the recording."""
+
+
+class EngineOracle:
+    """`run(**inputs)` asks the engine. `inputs()` gives the list of all inputs to record; `settings` says how it is set."""
+
+    def __init__(self, engine, path, run, inputs, settings):
+        self.engine, self.path, self.run, self.inputs, self.settings = engine, Path(path), run, inputs, settings
+        self.answers = {}
+
+    @property
+    def live(self):
+        """EXERCISES_ENGINES=recorded makes every machine like one without engines."""
+        return os.environ.get("EXERCISES_ENGINES") != "recorded" and find_spec(self.engine) is not None
+
+    @cached_property
+    def recording(self):
+        return json.loads(self.path.read_text(encoding="utf-8"))
+
+    @property
+    def pool(self):
+        """The recorded inputs."""
+        return [unpack(entry["inputs"]) for entry in self.recording["cases"]]
+
+    def __call__(self, values):
+        key = _key(values), self.live
+        if key not in self.answers:
+            self.answers[key] = self.run(**values) if self.live else self._recorded(key[0])
+        return self.answers[key]
+
+    def _recorded(self, key):
+        for entry in self.recording["cases"]:
+            if json.dumps(entry["inputs"]) == key:
+                return unpack(entry["output"])
+        raise Unrecorded(f"{self.engine} is not installed here, and {self.path.name} does not hold this case: "
+                         f"check with the usual seed's pool of cases, or where {self.engine} is installed")
+
+    def source(self):
+        """Which of the two speaks, in words."""
+        if self.live:
+            return f"{self.engine} {importlib.metadata.version(self.engine)}, run live"
+        made = self.recording
+        return f"a recording of {made['engine']} {made['version']} made on {made['platform']}"
+
+    def record(self):
+        """Runs the engine on all inputs, and writes the recording."""
+        cases = [{"inputs": pack(values), "output": pack(self.run(**values))} for values in self.inputs()]
+        head = {"engine": self.engine, "version": importlib.metadata.version(self.engine), "settings": self.settings,
+                "platform": f"{platform.system()} {platform.machine()}, Python {platform.python_version()}"}
+        lines = ",\n".join("  " + json.dumps(case) for case in cases)
+        text = json.dumps(head, indent=1)[:-2] + ',\n "cases": [\n' + lines + "\n ]\n}\n"
+        self.path.write_text(text, encoding="utf-8")
+
+
+def _key(values):
+    return json.dumps(pack(values))
+
+
+def main(arguments=None):
+    import exercises
+
+    parser = argparse.ArgumentParser(prog="python -m exercises.grader.recordings", description="Re-records a unit.")
+    parser.add_argument("--unit", required=True)
+    unit = exercises.slug(parser.parse_args(arguments).unit)
+    for oracle in exercises.part(unit, "checks").ENGINES:
+        oracle.record()
+        print(f"recorded {len(oracle.recording['cases'])} cases of {oracle.engine} in {oracle.path.name}")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

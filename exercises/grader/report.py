@@ -1,0 +1,138 @@
+"""What a student reads: plain text, the same in a notebook and in the shell."""
+
+import textwrap
+
+import numpy as np
+
+from exercises.grader.marking import Failure
+from exercises.grader.replies import Given, Student
+
+WIDTH, INDENT = 100, 24
+
+
+def report(result, page):
+    """The report of one check, as text. `page` is the unit's lecture page, for what to read."""
+    check, failing = result.check, [outcome for outcome in result.outcomes if not outcome.verdict.passed]
+    if not failing:
+        source = f"; {check.source()}" if check.source else ""
+        return f"passed  {check.name}: {check.points} of {check.points} points ({len(result.outcomes)} cases{source})"
+    first = failing[0]
+    count = f"{len(failing)} of {len(result.outcomes)} cases fail, here is the first"
+    lines = [f"FAILED  {check.name}: 0 of {check.points} points. {check.title[0].upper()}{check.title[1:]}: {count}."]
+    lines += _row("case", first.case.label)
+    lines += [line for call in first.calls[:1] for line in _row("call", write_call(call))]
+    lines += _what_came(first)
+    if check.source:
+        lines += _row("expected comes from", check.source())
+    if first.printed:
+        lines += _row("it printed", first.printed)
+    lines += _row("likely cause", likely_cause(result))
+    lines += _row("read", f'{page}, section "{check.section}"')
+    return "\n".join(lines)
+
+
+def _what_came(outcome):
+    verdict = outcome.verdict
+    if isinstance(verdict.got, Failure):
+        failure = verdict.got
+        rows = _row("got", failure.message if failure.kind in ("answer", "no answer")
+                    else f"{failure.kind}: {failure.message}")
+        return rows + [line for text in failure.lines for line in _row("", text)]
+    rows = _row("expected", write(verdict.expected)) + _row("got", write(verdict.got))
+    if verdict.complaint:
+        rows += _row("", verdict.complaint)
+    else:
+        rows += _row("error", f"{verdict.error:.3g}, where at most {verdict.tolerance:.3g} is allowed")
+    return rows
+
+
+def likely_cause(result):
+    """The first cause that looks like every failing case; else what the check says for want of a better."""
+    check = result.check
+    failing = [outcome for outcome in result.outcomes if not outcome.verdict.passed]
+    raised = [outcome.verdict.got for outcome in failing if isinstance(outcome.verdict.got, Failure)]
+    if raised:
+        return _cause_of_failure(raised[0], check)
+    if all(outcome.verdict.got is None for outcome in failing):
+        return "The function is still to be written, or its `return` is missing."
+    if failing[0].verdict.complaint:
+        return f"The answer is not of the kind asked for: {failing[0].verdict.complaint}."
+    for cause in check.causes:
+        if all(_matches(cause, outcome) for outcome in failing):
+            return cause.text
+    return check.hint
+
+
+def _matches(cause, outcome):
+    try:
+        return bool(cause.matches(outcome.case.values, outcome.verdict))
+    except (TypeError, ValueError, IndexError, KeyError, AttributeError):
+        return False                # an answer so odd that this cause's test cannot even look at it
+
+
+def _cause_of_failure(failure, check):
+    if failure.kind == "answer":
+        return f"{check.function or check.name} must give back what the text above its cell asks for."
+    if failure.kind == "no answer":
+        return "A loop that does not end, or far too many steps."
+    if failure.kind == "NameError":
+        return "A name that is not defined: a slip in spelling, or a cell that was not run."
+    if failure.kind == "TypeError" and "argument" in failure.message:
+        return "The function must take the arguments of the starter, in that order."
+    return "The error is raised in your own lines above; call the function by hand with the arguments shown."
+
+
+def _row(name, text):
+    """One line of the report, or several: the text's own lines are kept, long ones are wrapped."""
+    lines = [piece for line in str(text).splitlines() or [""]
+             for piece in textwrap.wrap(line, WIDTH - INDENT, break_long_words=False, break_on_hyphens=False) or [""]]
+    return [f"    {name if i == 0 else '':<{INDENT - 4}}{line}" for i, line in enumerate(lines[:12])]
+
+
+def write(value):
+    """A value, to eight figures, as a student reads it."""
+    if isinstance(value, np.ndarray):
+        text = np.array2string(value, precision=8, threshold=40, edgeitems=4, max_line_width=WIDTH - INDENT)
+        return text if text.count("\n") < 9 else f"{kind(value)} that begins {write(value[:3])}"
+    if isinstance(value, (float, np.floating)):
+        return f"{value:.9g}"
+    if isinstance(value, tuple):
+        return "(" + ", ".join(write(item) for item in value) + ")"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key!r}: {write(item)}" for key, item in value.items()) + "}"
+    if hasattr(value, "toarray"):
+        return f"sparse {write(value.toarray())}"
+    return value if isinstance(value, str) else repr(value)
+
+
+def kind(array):
+    return f"an array of shape {array.shape}"
+
+
+def write_call(call):
+    """A call that can be pasted into a cell."""
+    return f"{call.function}({', '.join(write_argument(argument) for argument in call.arguments)})"
+
+
+def write_argument(value):
+    if isinstance(value, np.ndarray):
+        return f"np.array({_list(value.tolist())})"
+    if isinstance(value, Student):
+        return value.name
+    if isinstance(value, Given):
+        parameters = ", ".join(f"{name}={write_argument(item)}" for name, item in value.parameters.items())
+        return f"given.{value.name}({parameters})"
+    if isinstance(value, (tuple, list)):
+        items = ", ".join(write_argument(item) for item in value)
+        return f"({items},)" if len(value) == 1 else f"({items})"
+    return repr(value.item() if isinstance(value, np.generic) else value)
+
+
+def _list(items):
+    return "[" + ", ".join(_list(item) if isinstance(item, list) else f"{item!r}" for item in items) + "]"
+
+
+def total(results):
+    """The last line: points of all checks."""
+    earned, possible = sum(result.earned for result in results), sum(result.check.points for result in results)
+    return f"{earned} of {possible} points"

@@ -1,0 +1,79 @@
+"""Checks a file in the shell, as the notebook's own check() would.
+
+    python -m exercises.grader.shell --unit 02 PATH [--json FILE] [--seed N] [--limit SECONDS]
+
+PATH is a notebook, or a script with cells. All its code cells run in a fresh Python process. The exit code is 0 if all
+checks pass, 1 if some fail, 2 if the file could not be checked.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+import exercises
+from exercises.grader.cells import Unreadable, read_cells
+from exercises.grader.check import SELF_STUDY_SEED
+from exercises.grader.marking import mark
+from exercises.grader.notebook import page
+from exercises.grader.recordings import Unrecorded
+from exercises.grader.report import report, total
+from exercises.grader.student import StudentProcess
+
+
+def main(arguments=None):
+    options = _options(arguments)
+    sys.stdout.reconfigure(errors="replace")        # a console that cannot show a student's letters must not stop us
+    try:
+        unit = exercises.slug(options.unit)
+        cells = read_cells(options.path)
+        results, troubles = check_cells(unit, cells, options.path.resolve().parent, options.seed, options.limit)
+    except (ValueError, OSError, Unreadable, Unrecorded) as error:
+        print(error, file=sys.stderr)
+        return 2
+    _tell_troubles(cells, troubles)
+    summary = summarise(unit, results)
+    if options.json:
+        options.json.write_text(json.dumps(summary) + "\n", encoding="utf-8")
+    print(total(results))
+    return 0 if summary["earned"] == summary["possible"] else 1
+
+
+def check_cells(unit, cells, folder, seed=SELF_STUDY_SEED, limit=60.0, show=print):
+    """(results, troubles): every check of the unit put to these cells, reports shown as they come."""
+    student = StudentProcess(unit, cells, folder, limit)
+    try:
+        results = []
+        for check in exercises.part(unit, "checks").CHECKS:
+            results.append(mark(check, student.ask, seed))
+            show(report(results[-1], page(unit)))
+        return results, student.troubles
+    finally:
+        student.close()
+
+
+def summarise(unit, results):
+    return {"unit": unit, "earned": sum(result.earned for result in results),
+            "possible": sum(result.check.points for result in results),
+            "passed": {result.check.name: result.passed for result in results}}
+
+
+def _tell_troubles(cells, troubles):
+    for number, trouble in troubles:
+        first_line = next((line.strip() for line in cells[number - 1].splitlines() if line.strip()), "")
+        print(f"Note: code cell {number} ({first_line[:60]}) did not run to its end.")
+        print("\n".join(f"    {line}" for line in trouble.splitlines()))
+
+
+def _options(arguments):
+    parser = argparse.ArgumentParser(prog="python -m exercises.grader.shell", description=__doc__.split("\n")[0])
+    parser.add_argument("path", type=Path, metavar="PATH", help="a notebook (.ipynb), or a script with # %%%% cells")
+    parser.add_argument("--unit", required=True, help="number or slug of the unit, such as 02")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write unit, earned, possible, passed there")
+    parser.add_argument("--seed", type=int, default=SELF_STUDY_SEED, help="draws the hidden cases")
+    parser.add_argument("--limit", type=float, default=60.0, metavar="SECONDS", help="for each cell and each check")
+    return parser.parse_args(arguments)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,99 @@
+"""The shell's subprocess, seen from outside: a student's cells run there, and questions are put to it over a pipe.
+
+A cell or a question that takes too long, or that kills the process, costs only itself: a new process runs the other
+cells again, and goes on.
+"""
+
+import json
+import os
+import queue
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+START = "import sys; sys.path.insert(0, sys.argv[1]); from exercises.grader.serve import main; main(sys.argv[2])"
+
+
+class Gone(Exception):
+    """The process did not answer: it took too long, or it died."""
+
+
+class StudentProcess:
+    """Runs `cells` of `unit` in `folder`. `troubles` lists (cell's number from 1, what was wrong with it)."""
+
+    def __init__(self, unit, cells, folder, limit=60.0):
+        self.unit, self.cells, self.folder, self.limit = unit, cells, folder, limit
+        self.skipped, self.troubles = set(), []
+        self._start()
+
+    def ask(self, text):
+        """The response to a request. Where none comes, one that says so for every call."""
+        try:
+            return self._exchange(text)
+        except Gone as reason:
+            self._start()
+            error = {"error": {"kind": "no answer", "message": str(reason), "lines": []}}
+            return json.dumps({"replies": [error] * len(json.loads(text)["calls"])})
+
+    def close(self):
+        self.process.kill()
+        self.process.wait()
+        for pipe in (self.process.stdin, self.process.stdout):
+            try:
+                pipe.close()
+            except OSError:                 # what was not yet written to a dead process
+                pass
+
+    def _start(self):
+        """A new process with all cells run, but for those that ended an earlier one."""
+        while True:
+            self._spawn()
+            try:
+                for number, source in enumerate(self.cells, 1):
+                    if number not in self.skipped:
+                        self._run_cell(number, source)
+                return
+            except Gone as reason:
+                self.skipped.add(number)
+                self.troubles.append((number, f"it was left out: {reason}"))
+
+    def _run_cell(self, number, source):
+        response = self._exchange(json.dumps({"cell": source, "name": f"cell {number}"}))
+        error = json.loads(response)["error"]
+        if error and number not in dict(self.troubles):
+            self.troubles.append((number, "\n".join([f"{error['kind']}: {error['message']}", *error["lines"]])))
+
+    def _spawn(self):
+        if hasattr(self, "process"):
+            self.close()
+        environment = dict(os.environ, MPLBACKEND="Agg", OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", PYTHONUTF8="1")
+        self.process = subprocess.Popen([sys.executable, "-c", START, str(ROOT), self.unit], cwd=self.folder,
+                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment,
+                                        encoding="utf-8")
+        self.lines = queue.Queue()
+        threading.Thread(target=_read_all, args=(self.process.stdout, self.lines), daemon=True).start()
+
+    def _exchange(self, text):
+        try:
+            self.process.stdin.write(text + "\n")
+            self.process.stdin.flush()
+            line = self.lines.get(timeout=self.limit)
+        except queue.Empty:
+            raise Gone(f"it took longer than {self.limit:g} s") from None
+        except OSError:
+            line = None
+        if line is None:
+            raise Gone(f"the Python process ended (exit code {self.process.wait()})")
+        return line
+
+
+def _read_all(pipe, lines):
+    """Reading with a time limit works on all systems only from a thread."""
+    try:
+        for line in pipe:
+            lines.put(line)
+    except (OSError, ValueError):
+        pass
+    lines.put(None)

@@ -1,0 +1,106 @@
+"""The student's side: looks functions up by name, calls them, sends back what they return.
+
+A request is one line of JSON text, {"calls": [{"function": name, "arguments": [...]}, ...]}, and so is the response,
+{"replies": [{"value": ...} or {"error": {"kind", "message", "lines"}}, ...]}. Each call has its own fresh copies of the
+arguments, since they are read from the text anew, and random generators set to the same state: no call can spoil another.
+"""
+
+import contextlib
+import io
+import json
+import random
+import sys
+import sysconfig
+import traceback
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from exercises.grader.replies import BadReply, pack, unpack
+
+OWN_FOLDER = str(Path(__file__).resolve().parent)
+LIBRARIES = tuple({str(Path(sysconfig.get_path(name)).resolve()) for name in ("stdlib", "purelib", "platlib")})
+MOST_PRINTED = 400       # characters of what a function printed that go into a report
+
+
+class Worker:
+    """Answers requests about the functions in `namespace`, with `given` to make arguments."""
+
+    def __init__(self, namespace, given):
+        self.namespace, self.given = namespace, given
+
+    def answer(self, text):
+        calls = json.loads(text)["calls"]
+        with _generators_put_back():
+            return json.dumps({"replies": [self._reply(call, i) for i, call in enumerate(calls)]}, allow_nan=False)
+
+    def _reply(self, call, number):
+        printed = io.StringIO()
+        try:
+            function = self._function(call["function"])
+            arguments = [unpack(argument, self._resolve) for argument in call["arguments"]]
+            random.seed(number)
+            np.random.seed(number)
+            with _quiet(printed):
+                reply = {"value": pack(function(*arguments))}
+        except KeyboardInterrupt:
+            raise                                       # the student pressed Stop: that ends the check
+        except BadReply as error:
+            reply = {"error": {"kind": "answer", "message": str(error), "lines": []}}
+        except BaseException as error:                  # SystemExit too: exit() in a function ends that call alone
+            reply = {"error": describe(error)}
+        if printed.getvalue():
+            reply["printed"] = printed.getvalue()[:MOST_PRINTED]
+        return reply
+
+    def _resolve(self, data):
+        if "student" in data:
+            return self._function(data["student"])
+        return getattr(self.given, data["given"])(**unpack(data["parameters"], self._resolve))
+
+    def _function(self, name):
+        function = self.namespace.get(name)
+        if not callable(function):
+            state = "is not defined" if function is None else f"is not a function but a {type(function).__name__}"
+            raise BadReply(f"{name} {state}: run (or mend) the cell that defines it")
+        return function
+
+
+@contextlib.contextmanager
+def _quiet(printed):
+    with warnings.catch_warnings(), contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
+        warnings.simplefilter("ignore")                 # an overflow shows in the answer; its warning only floods the cell
+        yield
+
+
+@contextlib.contextmanager
+def _generators_put_back():
+    """The student's own random numbers go on after a check as if there had been none."""
+    states = random.getstate(), np.random.get_state()
+    try:
+        yield
+    finally:
+        random.setstate(states[0])
+        np.random.set_state(states[1])
+
+
+def describe(error):
+    """An exception as data: its kind, message, and the student's own lines that led to it (the last few)."""
+    lines = []
+    for frame in traceback.extract_tb(error.__traceback__):
+        if not _is_ours(frame.filename):
+            lines.append(f"in {frame.name}, line {frame.lineno}: {frame.line or ''}".rstrip(": "))
+    if isinstance(error, SyntaxError) and error.text:
+        lines.append(f"line {error.lineno}: {error.text.strip()}")
+    try:
+        message = str(error)
+    except Exception:                                   # an exception class whose __str__ raises
+        message = ""
+    return {"kind": type(error).__name__[:80], "message": message[:500], "lines": [line[:200] for line in lines[-4:]]}
+
+
+def _is_ours(filename):
+    if filename.startswith("<frozen") or filename.startswith(OWN_FOLDER):
+        return True
+    return filename.startswith(LIBRARIES) or filename.startswith(sys.prefix)
