@@ -1,0 +1,248 @@
+"""The state of the bodies as arrays, the mass matrix M, and the equation of motion M u̇ = f.
+
+``Bodies(scene)`` lays a scene out for computing. Only what moves is in the state: bodies that rotate come first, then
+points; what is static has no velocity and becomes part of the constants. A rotating body's frame is turned to its
+principal axes, so that its inertia is three numbers.
+
+M is block diagonal: the mass for v, the world-frame inertia R I Rᵀ for ω. So M⁻¹ is applied body by body, never formed.
+
+Slides S4, S9; lectures/02_equation_of_motion.md.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from .compiled import compiled
+from .inertia import principal_axes
+from .rotation import (
+    conjugate, cross, multiply, normalise, over_arrays, quaternion_rate, rotate, rotate_back, rotate_in_plane,
+)
+from .shapes import Point
+
+
+class State(NamedTuple):
+    """What changes: views into one flat vector y. m bodies move, the first r of them rotate.
+
+    x (m, d) m; q (r, 4), or (r, 1) angles in the plane; v (m, d) m/s; ω (r, 3) or (r, 1) rad/s; all in the world frame.
+    A rate of change, and a force, have the same layout.
+    """
+
+    y: np.ndarray
+    x: np.ndarray
+    q: np.ndarray
+    v: np.ndarray
+    ω: np.ndarray
+
+
+class System(NamedTuple):
+    """What does not change. Bodies as in State; points on a body in its principal frame, fixed points in the world's."""
+
+    mass: np.ndarray  # (m,) kg
+    inertia: np.ndarray  # (r, 3) principal moments, or (r, 1), kg m²
+    gravity: np.ndarray  # (d,) m/s²
+    spring_bodies: np.ndarray  # (s, 2) int; −1: fixed in the world
+    spring_points: np.ndarray  # (s, 2, d) m
+    spring_law: np.ndarray  # (s, 3): stiffness N/m, damping N s/m, length m
+    drag_bodies: np.ndarray  # (k,) int
+    drag_law: np.ndarray  # (k, 2): linear N s/m, angular N m s
+    gravitation: float  # G, m³/(kg s²)
+    fixed_masses: np.ndarray  # (p,) kg, static bodies that attract
+    fixed_positions: np.ndarray  # (p, d) m
+    velocity_dependent: bool  # whether a force depends on v or ω
+
+
+@compiled
+def make_state(m, r, d):
+    """A State of zeros for m bodies in d dimensions, of which r rotate."""
+    orientation, spin = (4, 3) if d == 3 else (1, 1)
+    y = np.zeros(2 * m * d + r * (orientation + spin))
+    i, j, k = m * d, m * d + r * orientation, 2 * m * d + r * orientation
+    return State(
+        y, y[:i].reshape((m, d)), y[i:j].reshape((r, orientation)), y[j:k].reshape((m, d)), y[k:].reshape((r, spin))
+    )
+
+
+@compiled
+def store(row, components):
+    """Write the components of a vector into a row of an array."""
+    for k in range(len(row)):
+        row[k] = components[k]
+
+
+@compiled
+def planar(state):
+    """Whether orientations are angles."""
+    return state.q.shape[1] == 1
+
+
+@compiled
+def angular_momentum_in_body(q, ω, inertia):
+    """I Rᵀ ω: the angular momentum about the centre, in the principal frame, from ω in the world frame."""
+    spin = rotate_back(q, ω)
+    return inertia[0] * spin[0], inertia[1] * spin[1], inertia[2] * spin[2]
+
+
+@compiled
+def add_gyroscopic_torque(system, state, τ):
+    """τ −= ω × I ω, the inertial part of f_e (S4): in the world frame the inertia tensor turns with the body."""
+    if planar(state):
+        return
+    for i in range(len(state.q)):
+        q, ω = state.q[i], state.ω[i]
+        gyroscopic = cross(ω, rotate(q, angular_momentum_in_body(q, ω, system.inertia[i])))
+        for k in range(3):
+            τ[i, k] -= gyroscopic[k]
+
+
+@compiled
+def solve_mass(system, q, f, τ):
+    """M⁻¹ (f, τ), in place: force to acceleration, torque to angular acceleration, impulse to change of velocity."""
+    for i in range(len(f)):
+        for k in range(f.shape[1]):
+            f[i, k] /= system.mass[i]
+    for i in range(len(τ)):
+        if q.shape[1] == 1:
+            τ[i, 0] /= system.inertia[i, 0]
+        else:
+            torque = rotate_back(q[i], τ[i])
+            I = system.inertia[i]
+            store(τ[i], rotate(q[i], (torque[0] / I[0], torque[1] / I[1], torque[2] / I[2])))
+
+
+@compiled
+def velocity_to_rate(state, rate):
+    """ẋ = v and q̇ = E(q) ω (S9); an angle's rate is ω itself."""
+    for i in range(len(state.x)):
+        store(rate.x[i], state.v[i])
+    for i in range(len(state.q)):
+        if planar(state):
+            rate.q[i, 0] = state.ω[i, 0]
+        else:
+            store(rate.q[i], quaternion_rate(state.q[i], state.ω[i]))
+
+
+@compiled
+def normalise_all(state):
+    """Bring each quaternion back to norm 1."""
+    if not planar(state):
+        for i in range(len(state.q)):
+            store(state.q[i], normalise(state.q[i]))
+
+
+class Bodies:
+    """A scene laid out as arrays: ``system``, ``state()``, and the way back to bodies in the order they were added.
+
+    n bodies in all: mass (n,), 0 for the static; source_mass (n,), all that attracts; inertia (n, 3, 3) or (n,), body
+    frame, 0 for what does not rotate.
+    """
+
+    def __init__(self, scene):
+        bodies, self.dimension = scene.bodies, scene.dimension
+        moving = [i for i, body in enumerate(bodies) if not body.static]
+        rotating = [i for i in moving if not isinstance(bodies[i].shape, Point)]
+        self.rotating = np.array(rotating, dtype=int)
+        self.moving = np.array(rotating + [i for i in moving if isinstance(bodies[i].shape, Point)], dtype=int)
+        self.slot = {int(i): k for k, i in enumerate(self.moving)}  # body's number → row of the state
+        n, d = len(bodies), self.dimension
+        self.position = np.array([body.position for body in bodies]).reshape(n, d)
+        self.orientation = np.array([body.orientation for body in bodies]).reshape((n, 4) if d == 3 else n)
+        self.velocity = np.array([body.velocity for body in bodies]).reshape(n, d)
+        self.angular_velocity = np.array([body.angular_velocity for body in bodies]).reshape((n, 3) if d == 3 else n)
+        self.source_mass = np.array([body.mass for body in bodies])
+        self.mass = np.array([0.0 if body.static else body.mass for body in bodies])
+        self.inertia = np.zeros((n, 3, 3) if d == 3 else n)
+        for i in rotating:
+            self.inertia[i] = bodies[i].inertia
+        self.gravity, self.gravitation = scene.gravity, scene.gravitation
+        self._turn_to_principal_axes()
+        self._lay_out_springs(scene.springs)
+        self.system = self._system(scene)
+
+    def state(self, position=None, orientation=None, velocity=None, angular_velocity=None):
+        """The State (see there) of all bodies given in the scene's order; None: as at the scene's start."""
+        state = make_state(len(self.moving), len(self.rotating), self.dimension)
+        state.x[:] = (self.position if position is None else position)[self.moving]
+        state.v[:] = (self.velocity if velocity is None else velocity)[self.moving]
+        q = (self.orientation if orientation is None else orientation)[self.rotating]
+        state.q[:] = over_arrays(multiply)(q, self.principal) if self.dimension == 3 else q[:, None]
+        spin = self.angular_velocity if angular_velocity is None else angular_velocity
+        state.ω[:] = spin[self.rotating].reshape(state.ω.shape)
+        return state
+
+    def unpack(self, y):
+        """Position (T, n, d), orientation (T, n, 4) or (T, n), velocity (T, n, d), angular velocity (T, n, 3) or (T, n).
+
+        y (T, size): records of ``State.y``. Static bodies are where the scene put them, at rest.
+        """
+        T, m, r, d = len(y), len(self.moving), len(self.rotating), self.dimension
+        x, q, v, ω = np.split(y, np.cumsum([m * d, r * (4 if d == 3 else 1), m * d]), axis=1)
+        result = [np.repeat(a[None], T, axis=0) for a in (self.position, self.orientation, self.velocity, self.angular_velocity)]
+        result[0][:, self.moving] = x.reshape(T, m, d)
+        result[2][:, self.moving] = v.reshape(T, m, d)
+        if d == 3:
+            q = q.reshape(T, r, 4)
+            if self.turned:
+                q = over_arrays(multiply)(q, over_arrays(conjugate)(self.principal))
+            result[1][:, self.rotating], result[3][:, self.rotating] = q, ω.reshape(T, r, 3)
+        else:
+            result[1][:, self.rotating], result[3][:, self.rotating] = q, ω
+        return tuple(result)
+
+    def _turn_to_principal_axes(self):
+        """Each rotating body's principal moments, and the quaternion principal frame → body frame."""
+        r = len(self.rotating)
+        if self.dimension == 2:
+            self.moments, self.principal, self.turned = self.inertia[self.rotating].reshape(r, 1), None, False
+            return
+        axes = [principal_axes(self.inertia[i]) for i in self.rotating]
+        self.moments = np.array([moments for moments, _ in axes]).reshape(r, 3)
+        self.principal = np.array([q for _, q in axes]).reshape(r, 4)
+        self.turned = bool(np.any(self.principal[:, 0] != 1))
+
+    def _lay_out_springs(self, springs):
+        """Each spring's two ends as (body's number or None, point): in that body's frame, or in the world's."""
+        self.spring_ends = [
+            [(i, point if i is None else self._in_body(i, point)) for i, point in ends]
+            for ends in (((s.a, s.point_a), (s.b, s.point_b)) for s in springs)
+        ]
+
+    def _in_body(self, i, point):
+        """A point (d,) given in world coordinates at the start, in the frame of body i."""
+        turn = over_arrays(rotate) if self.dimension == 3 else rotate_in_plane
+        q = self.orientation[i]
+        return turn(q * [1, -1, -1, -1] if self.dimension == 3 else -q, point - self.position[i])
+
+    def _spring_arrays(self, springs):
+        """The System's arrays: what is fixed to a static body is fixed in the world, the rest in principal frames."""
+        s, d = len(springs), self.dimension
+        slots, points = np.full((s, 2), -1), np.zeros((s, 2, d))
+        for row, (spring, ends) in enumerate(zip(springs, self.spring_ends, strict=True)):
+            for k, (i, point) in enumerate(ends):
+                slot = slots[row, k] = self.slot.get(i, -1)
+                if slot < 0:
+                    point = (spring.point_a, spring.point_b)[k]
+                elif d == 3 and slot < len(self.rotating):
+                    point = over_arrays(rotate)(self.principal[slot] * [1, -1, -1, -1], point)
+                points[row, k] = point
+        law = np.array([[spring.stiffness, spring.damping, spring.length] for spring in springs]).reshape(s, 3)
+        return slots, points, law
+
+    def _system(self, scene):
+        spring_bodies, spring_points, spring_law = self._spring_arrays(scene.springs)
+        drags = {self.slot[i]: law for i, law in scene.drags.items() if i in self.slot}
+        attracting = [i for i, body in enumerate(scene.bodies) if body.static and body.mass and scene.gravitation]
+        return System(
+            mass=self.mass[self.moving],
+            inertia=self.moments,
+            gravity=self.gravity,
+            spring_bodies=spring_bodies,
+            spring_points=spring_points,
+            spring_law=spring_law,
+            drag_bodies=np.array(list(drags), dtype=int),
+            drag_law=np.array(list(drags.values()), dtype=float).reshape(-1, 2),
+            gravitation=self.gravitation,
+            fixed_masses=self.source_mass[attracting],
+            fixed_positions=self.position[attracting],
+            velocity_dependent=bool(drags) or bool(np.any(spring_law[:, 1])) or bool(scene.user_forces),
+        )

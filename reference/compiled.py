@@ -1,0 +1,104 @@
+"""Compile the loops: Numba where it is there, the same plain Python where it isn't.
+
+The reference is written as plain Python functions over arrays. ``@compiled`` hands such a function to Numba; without
+Numba, or with the environment variable ``REFERENCE_COMPILED=0``, it stays the function it was, so that a student can
+step through it. Both give the same numbers, to rounding.
+
+Some functions take other functions: an integrator takes the force, a run takes the integrator's step. Numba can't keep
+such a call in its cache on disk. ``bind(rk4, force)`` therefore fixes the leading function arguments once, before
+compiling: what Numba sees is an ordinary function of arrays, which it caches and inlines.
+
+The cache lies beside this file, in a folder named by a hash of the package's sources, Python and Numba, because Numba
+alone does not notice that a helper in *another* module was edited, and would go on serving the old answer.
+
+Serves every slide; lectures/02_equation_of_motion.md introduces it.
+"""
+
+import ast
+import functools
+import hashlib
+import inspect
+import os
+import shutil
+import sys
+import textwrap
+from pathlib import Path
+
+try:
+    import numba
+except ImportError:  # the course runs without Numba, only slower
+    numba = None
+
+COMPILED = numba is not None and os.environ.get("REFERENCE_COMPILED", "1") != "0"
+_KEPT_CACHES = 4  # older folders are deleted; a few are kept for other Pythons and other branches
+
+
+def source_hash(folder):
+    """A hash (16 hex digits) of all Python sources below a folder, of Python and of Numba."""
+    digest = hashlib.sha256(f"{sys.version} {numba and numba.__version__}".encode())
+    for path in sorted(Path(folder).rglob("*.py")):
+        digest.update(str(path.relative_to(folder)).encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+@functools.cache
+def cache_directory():
+    """The folder for compiled code that belongs to just these sources, or None where none can be written."""
+    package = Path(__file__).resolve().parent
+    folder = package / "__pycache__" / f"compiled-{source_hash(package)}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        os.utime(folder)
+        others = sorted(folder.parent.glob("compiled-*"), key=lambda path: path.stat().st_mtime, reverse=True)
+        for old in others[_KEPT_CACHES:]:
+            shutil.rmtree(old, ignore_errors=True)
+    except OSError:
+        return None
+    return folder if os.access(folder, os.W_OK) else None
+
+
+def compiled(function):
+    """Compile a function with Numba on its first call, and cache it; the function itself where there is no Numba.
+
+    Division by zero gives inf or nan, as NumPy does, in both forms. Small functions are inlined into their callers:
+    without that, passing a tuple of arrays costs more than the physics.
+    """
+    if not COMPILED:
+        return function
+    folder = cache_directory()
+    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, str(folder or "")
+    try:
+        return numba.njit(function, cache=folder is not None, error_model="numpy", forceinline=True)
+    finally:
+        numba.config.CACHE_DIR = before
+
+
+def plain(function):
+    """The plain Python form of a compiled function, for reading, stepping through, and comparing."""
+    return getattr(function, "py_func", function)
+
+
+def bind(function, *functions):
+    """``functools.partial`` for compiled functions: fix the leading arguments, which are functions themselves.
+
+    Plain functions give a plain partial. Compiled ones give one compiled function, made from the same source with the
+    leading arguments turned into global names.
+    """
+    if not COMPILED or not all(hasattr(f, "py_func") for f in (function, *functions)):
+        return functools.partial(plain(function), *functions)
+    return _bind_compiled(function, *functions)
+
+
+@functools.cache
+def _bind_compiled(function, *functions):
+    source = plain(function)
+    tree = ast.parse(textwrap.dedent(inspect.getsource(source)))
+    ast.increment_lineno(tree, source.__code__.co_firstlineno - 1)  # so that a traceback shows the right line
+    definition = tree.body[0]
+    fixed = [argument.arg for argument in definition.args.args[: len(functions)]]
+    del definition.args.args[: len(functions)]
+    definition.decorator_list.clear()
+    definition.name = "_".join([source.__name__, *(plain(f).__name__ for f in functions)])
+    names = {**source.__globals__, **dict(zip(fixed, functions, strict=True))}
+    exec(compile(tree, source.__code__.co_filename, "exec"), names)
+    return compiled(names[definition.name])

@@ -1,0 +1,113 @@
+"""What will be built for a scene, and what each part costs: only what the scene needs.
+
+Slides S3, S4, S12; lectures/02_equation_of_motion.md.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..integrators import INTEGRATORS
+from ..scene import Scene, Unsupported
+from ..shapes import Point
+
+
+@dataclass(frozen=True)
+class Term:
+    """One part of the model: how many there are, and floating-point operations for all of them in one evaluation."""
+
+    name: str
+    count: int
+    operations: int
+
+
+@dataclass(frozen=True)
+class Model:
+    """What ``simulate`` will build. ``print(model(scene))`` shows it as a table.
+
+    velocities: the length of u; terms: what is computed in each evaluation of the force; absent: what the scene does
+    not need, and so is not built; simulator, integrator: what is chosen where the user doesn't say.
+    """
+
+    dimension: int
+    moving: int
+    rotating: int
+    static: int
+    velocities: int
+    terms: tuple
+    absent: tuple
+    simulator: str
+    integrator: str
+    why: str
+
+    @property
+    def operations(self):
+        """Floating-point operations of a step, roughly: those of all terms, as often as the integrator evaluates them."""
+        return INTEGRATORS[self.integrator].evaluations * sum(term.operations for term in self.terms)
+
+    def __str__(self):
+        where = "in the plane" if self.dimension == 2 else "in space"
+        lines = [
+            f"{self.moving} moving bodies {where}, {self.rotating} of them rotate, {self.static} static: "
+            f"{self.velocities} velocities in u",
+            f"simulator {self.simulator}, integrator {self.integrator}: {self.why}",
+            f"{'term':<24}{'count':>8}{'operations':>12}",
+            *(f"{term.name:<24}{term.count:>8}{term.operations:>12}" for term in self.terms),
+            f"about {self.operations} operations a step",
+            f"not built: {', '.join(self.absent)}",
+        ]
+        return "\n".join(lines)
+
+
+def model(scene):
+    """Tell what will be built for this scene and what each term costs. Returns a ``Model``.
+
+    Raises TypeError for what is not a Scene, and Unsupported where no simulator of this course can run it.
+    """
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene must be a Scene, but is {scene!r}")
+    touching = next(scene.colliding_pairs(), None)
+    if touching:
+        i, j = touching
+        raise Unsupported(
+            f"bodies {i} and {j} could touch, and no simulator of this course computes contact yet: put bodies that "
+            f"should pass through each other in one group, or call scene.pair({i}, {j}, collide=False)"
+        )
+    moving = [body for body in scene.bodies if not body.static]
+    rotating = [body for body in moving if not isinstance(body.shape, Point)]
+    d, m, r = scene.dimension, len(moving), len(rotating)
+    present, absent = _terms(scene, m, r)
+    integrator, why = _integrator(scene, rotating)
+    return Model(d, m, r, len(scene.bodies) - m, m * d + r * (3 if d == 3 else 1), present, absent, "smooth", integrator, why)
+
+
+def _terms(scene, m, r):
+    """The terms that are there, and the names of those that are not. Operations are counted by hand in the kernels."""
+    d = scene.dimension
+    space = d == 3
+    pulls = m * (m - 1) // 2 + m * sum(body.static and body.mass > 0 for body in scene.bodies)
+    attracts = scene.gravitation > 0
+    candidates = (
+        Term("M⁻¹", m, m * d + r * (60 if space else 1)),
+        Term("gyroscopic ω × Iω", r if space else 0, r * 75),
+        Term("gravity", m if np.any(scene.gravity) else 0, m * d),
+        Term("springs", len(scene.springs), len(scene.springs) * (170 if space else 90)),
+        Term("drag", len(scene.drags), len(scene.drags) * (2 * d + 6)),
+        Term("gravitation", pulls if attracts else 0, pulls * (8 * d + 6)),
+        Term("user's forces (Python)", len(scene.user_forces), 0),
+    )
+    absent = [term.name for term in candidates if not term.count]
+    absent += ["collision detection, contact rows and LCP: nothing can touch"]
+    return tuple(term for term in candidates if term.count), tuple(absent)
+
+
+def _integrator(scene, rotating):
+    """The integrator that suits the scene's forces, and why."""
+    damped = scene.drags or scene.user_forces or any(spring.damping for spring in scene.springs)
+    position_dependent = scene.springs or scene.gravitation
+    gyroscopic = scene.dimension == 3 and any(np.ptp(np.linalg.eigvalsh(body.inertia)) > 0 for body in rotating)
+    if damped:
+        return "rk4", "forces may depend on velocity, so order 4 by Runge–Kutta"
+    if position_dependent or gyroscopic:
+        return "splitting4", "no force depends on velocity, so order 4 by splitting, which keeps energy over long runs"
+    return "splitting", "all forces are constant, so a splitting step is exact"

@@ -1,0 +1,124 @@
+"""What a run leaves behind: the motion of all bodies, and what can be measured on it.
+
+Arrays only; a trajectory of ours and one of an engine are the same class, so whatever measures one measures the other.
+
+Slides S9, S18; lectures/02_equation_of_motion.md.
+"""
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from .bodies import Bodies
+from .forces import potential_energy
+from .rotation import rotation_matrix
+
+
+@dataclass(frozen=True)
+class BodyState:
+    """All n bodies at one time, in the order added, world frame; what ``simulate(..., start=)`` takes.
+
+    time: s; position, velocity: (n, d); orientation: (n, 4) or (n,); angular_velocity: (n, 3) or (n,).
+    """
+
+    time: float
+    position: np.ndarray
+    orientation: np.ndarray
+    velocity: np.ndarray
+    angular_velocity: np.ndarray
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """The m contacts of one record. bodies (m, 2), lower number first; point (m, d); frame (m, d, d), rows n, t1, t2, n
+    from first to second; depth (m,); impulse (m, d) in that frame, N s, summed since the record before."""
+
+    bodies: np.ndarray
+    point: np.ndarray
+    frame: np.ndarray
+    depth: np.ndarray
+    impulse: np.ndarray
+
+
+class ContactHistory:
+    """The contacts of all records: ``history[k]`` is a ``Contacts`` of views into flat arrays; row offsets (T + 1,)."""
+
+    def __init__(self, offsets, *arrays):
+        self.offsets, self.arrays = offsets, arrays
+
+    @classmethod
+    def empty(cls, records, d):
+        """No contact in any of the records, in d dimensions."""
+        shapes = (0, 2), (0, d), (0, d, d), (0,), (0, d)
+        return cls(np.zeros(records + 1, dtype=int), *(np.zeros(s, int if s == (0, 2) else float) for s in shapes))
+
+    def __len__(self):
+        return len(self.offsets) - 1
+
+    def __getitem__(self, k):
+        k = range(len(self))[k]  # negative indices, and IndexError
+        return Contacts(*(array[self.offsets[k] : self.offsets[k + 1]] for array in self.arrays))
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """The motion of n bodies at T times: all bodies, the static ones too, in the order added; world frame, SI units.
+
+    time (T,); position (T, n, d); orientation (T, n, 4) or (T, n) in the plane; velocity (T, n, d); angular_velocity
+    (T, n, 3) or (T, n); contacts[k], see ``Contacts``; status: "ok", or "diverged", after which there are no more
+    records; reason: a sentence; residual, iterations (T,): of the step's own equation, the worst since the record
+    before; settings: what was chosen, by whom.
+    """
+
+    bodies: Bodies = field(repr=False)
+    time: np.ndarray = field(repr=False)
+    position: np.ndarray = field(repr=False)
+    orientation: np.ndarray = field(repr=False)
+    velocity: np.ndarray = field(repr=False)
+    angular_velocity: np.ndarray = field(repr=False)
+    contacts: ContactHistory = field(repr=False)
+    status: str = "ok"
+    reason: str = ""
+    residual: np.ndarray = field(default=None, repr=False)
+    iterations: np.ndarray = field(default=None, repr=False)
+    settings: dict = field(default_factory=dict)
+
+    def state(self, k=-1):
+        """The ``BodyState`` of record k, by default the last: serves as ``start=`` of another run."""
+        arrays = self.position, self.orientation, self.velocity, self.angular_velocity
+        return BodyState(float(self.time[k]), *(array[k].copy() for array in arrays))
+
+    def energy(self):
+        """Kinetic energy and the potential energy of gravity, springs and gravitation, J: (T,)."""
+        kinetic = 0.5 * np.square(self.velocity).sum(axis=-1) @ self.bodies.mass
+        kinetic = kinetic + 0.5 * (self._spin * self.angular_velocity).reshape(len(self.time), -1).sum(axis=-1)
+        return kinetic + potential_energy(self.bodies, self.position, self.orientation)
+
+    def momentum(self):
+        """Σ m v, kg m/s: (T, d)."""
+        return np.einsum("i,tik->tk", self.bodies.mass, self.velocity)
+
+    def angular_momentum(self):
+        """Σ x × m v + I ω about the world's origin, kg m²/s: (T, 3), or (T,) in the plane."""
+        x, p = self.position, self.bodies.mass[:, None] * self.velocity
+        if self.bodies.dimension == 2:
+            return (x[..., 0] * p[..., 1] - x[..., 1] * p[..., 0] + self._spin).sum(axis=1)
+        return (np.cross(x, p) + self._spin).sum(axis=1)
+
+    def joint_error(self):
+        """The worst gap in any joint, m: (T,); 0 where there is none."""
+        return np.zeros(len(self.time))
+
+    def penetration(self):
+        """The depth of the deepest contact, m: (T,); 0 where there is none."""
+        return np.array([max(self.contacts[k].depth, default=0.0) for k in range(len(self.time))])
+
+    @cached_property
+    def _spin(self):
+        """I ω of each body about its centre, world frame: (T, n, 3) or (T, n)."""
+        if self.bodies.dimension == 2:
+            return self.bodies.inertia * self.angular_velocity
+        R = rotation_matrix(self.orientation)
+        in_body = np.einsum("tnji,tnj->tni", R, self.angular_velocity)
+        return np.einsum("tnij,njk,tnk->tni", R, self.bodies.inertia, in_body, optimize=True)
