@@ -6,7 +6,6 @@ Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
 
 import importlib.util
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import metadata
@@ -14,15 +13,18 @@ from importlib import metadata
 import numpy as np
 
 from .. import inputs
+from ..bodies import Bodies
 from ..scene import Unsupported
-from .forces import Snapshot
+from ..simulators.simulate import count_steps
+from ..trajectory import BodyState, ContactHistory, Trajectory
 
 
 @dataclass(frozen=True)
 class Engine:
     """An engine: ``load(scene, dt, **settings)`` gives a Peer that steps the scene in it.
 
-    settings: name → (default, what is allowed: a tuple of words, or the smallest whole number).
+    name: of the Python package; settings: name → (default, what is allowed: a tuple of words, or the smallest whole
+    number); install: a sentence; adapter: the Peer's class; recorded_in: the version this adapter was written for.
     """
 
     name: str
@@ -44,50 +46,52 @@ class Engine:
     def load(self, scene, dt, **settings):
         """The scene in this engine, at its start: a Peer. Raises Unsupported for what the engine can't express."""
         chosen = self._checked(settings)
+        self._check_scene(scene)
         if not self.available:
             raise Unsupported(
-                f"{self.name} is not installed for this Python: {self.install}. Where it has no wheel, the recordings "
-                "in reference/peers/recordings serve: see reference.peers.recorded.")
+                f"{self.name} is not installed for this Python: {self.install}. Where it can't be, its recordings serve: "
+                "see reference.peers.recorded")
+        return self.adapter(self, scene, inputs.number("dt", dt, above=0), chosen)
+
+    def _check_scene(self, scene):
         if scene.dimension != self.dimension:
-            other = {2: ("the plane", "pybullet"), 3: ("space", "pymunk")}[self.dimension]
-            raise Unsupported(f"{self.name} knows only {other[0]}, and this scene has {scene.dimension} dimensions: use {other[1]}")
+            place, other = {2: ("the plane", "pybullet"), 3: ("space", "pymunk")}[self.dimension]
+            raise Unsupported(f"{self.name} works in {place} here, but the scene has {scene.dimension} dimensions: use {other}")
         meeting = next(iter(scene.colliding_pairs()), None)
         if meeting:
             raise Unsupported(
-                f"contact is not passed on to {self.name} by this adapter, and the bodies {meeting[0]} and {meeting[1]} "
-                "could touch: say scene.pair(i, j, collide=False), or put them in one group")
-        return self.adapter(self, scene, inputs.number("dt", dt, above=0), chosen)
+                f"this adapter passes no contact on to {self.name}, but bodies {meeting[0]} and {meeting[1]} could touch: "
+                f"put them in one group, or call scene.pair({meeting[0]}, {meeting[1]}, collide=False)")
 
     def _checked(self, settings):
-        valid = "; ".join(f"{name} ({_allowed(allowed)})" for name, (_, allowed) in self.settings.items())
+        valid = "; ".join(f"{name}: {_allowed(allowed)}" for name, (_, allowed) in self.settings.items())
         chosen = {name: default for name, (default, _) in self.settings.items()}
         for name, value in settings.items():
             if name not in chosen:
-                raise ValueError(f"{name!r} is no setting of {self.name}, which has: {valid}")
+                raise ValueError(f"{name!r} is no setting of {self.name}, which has {valid}")
             allowed = self.settings[name][1]
-            chosen[name] = inputs.choice(name, value, allowed) if isinstance(allowed, tuple) else inputs.whole(name, value, least=allowed)
+            words = isinstance(allowed, tuple)
+            chosen[name] = inputs.choice(name, value, allowed) if words else inputs.whole(name, value, least=allowed)
         return chosen
 
 
 def _allowed(allowed):
-    return " or ".join(map(repr, allowed)) if isinstance(allowed, tuple) else f"a whole number of at least {allowed}"
+    return " or ".join(map(repr, allowed)) if isinstance(allowed, tuple) else f"a whole number from {allowed}"
 
 
 class Peer:
-    """A scene inside an engine, being stepped. Use it as a context, or call ``close()``.
+    """A scene inside an engine, being stepped. Use it in a ``with`` statement, or call ``close()``.
 
-    ``advance(duration)`` steps and reads nothing, so that its time is the engine's; ``state`` reads the engine.
+    ``advance(duration)`` steps and reads nothing that the forces don't need, so its time is the engine's; ``state``
+    reads all bodies; ``run(duration)`` leaves a Trajectory. moving: the numbers of the bodies that are not static.
     """
 
     def __init__(self, engine, scene, dt, settings):
-        self.engine, self.scene, self.dt, self.settings = engine, scene, dt, settings
+        self.engine, self.scene, self.dt = engine, scene, dt
+        self.substeps = settings["substeps"]
+        self.settings = {"engine": engine.name, "version": engine.version, "dt": dt, **settings}
+        self.bodies, self.steps = Bodies(scene), 0
         self.moving = [i for i, body in enumerate(scene.bodies) if not body.static]
-        self.steps = 0
-        d, n = scene.dimension, len(scene.bodies)
-        self._rest = Snapshot(  # what is static stays so; the rest is read from the engine
-            0.0, np.array([body.position for body in scene.bodies]).reshape(n, d),
-            np.array([body.orientation for body in scene.bodies], dtype=float).reshape((n, 4) if d == 3 else n),
-            np.zeros((n, d)), np.zeros((n, 3) if d == 3 else n))
 
     @property
     def time(self):
@@ -96,26 +100,48 @@ class Peer:
 
     @property
     def state(self):
-        """All bodies now: a Snapshot, shaped as one record of a Trajectory."""
-        now = Snapshot(self.time, *(array.copy() for array in self._rest[1:]))
+        """All bodies now: a ``BodyState``."""
+        start = self.bodies  # what is static stays where the scene has put it
+        arrays = [a.copy() for a in (start.position, start.orientation, start.velocity, start.angular_velocity)]
         for i, body in zip(self.moving, self.read(), strict=True):
-            for array, value in zip(now[1:], body, strict=True):
+            for array, value in zip(arrays, body, strict=True):
                 array[i] = value
-        return now
+        return BodyState(self.time, *arrays)
 
     def advance(self, duration):
         """Step for ``duration``, a whole number of dt."""
-        steps = whole_steps(duration, self.dt)
-        self.run(steps)
+        self._take(count_steps(duration, self.dt))
+
+    def run(self, duration, record_every=1):
+        """Step for ``duration``, recording each so-manieth step and the last: a Trajectory."""
+        steps, every = count_steps(duration, self.dt), inputs.whole("record_every", record_every, least=1)
+        done = np.append(np.arange(0, steps, every), steps)
+        states = [self.state]
+        for count in np.diff(done):
+            self._take(int(count))
+            states.append(self.state)
+            if not all(np.isfinite(array).all() for array in _arrays(states[-1])):
+                states.pop()
+                break
+        kept, whole = len(states), len(states) == len(done)
+        time = states[0].time + done[:kept] * duration / steps
+        reason = "" if whole else f"{self.engine.name}'s state stopped being finite after t = {time[-1]:.6g} s; try a smaller dt"
+        return Trajectory(
+            self.bodies, time, *(np.array(history) for history in zip(*map(_arrays, states), strict=True)),
+            contacts=ContactHistory.empty(kept, self.scene.dimension), status="ok" if whole else "diverged", reason=reason,
+            residual=np.zeros(kept), iterations=np.zeros(kept, dtype=int), settings=dict(self.settings))
+
+    def _take(self, steps):
+        self.step(steps)
         self.steps += steps
 
-    def run(self, steps):
-        """Take the steps; the adapter's own loop."""
-        raise NotImplementedError
+    def step(self, steps):
+        """Take so many steps of dt, each of ``substeps`` of the engine's own; the adapter's loop."""
+        raise TypeError("an adapter must define step(steps)")
 
     def read(self):
-        """The moving bodies, each (position, orientation, velocity, angular velocity); the adapter's own."""
-        raise NotImplementedError
+        """The moving bodies, each as (position, orientation, velocity, angular velocity)."""
+        raise TypeError("an adapter must define read()")
 
     def close(self):
         """Give back what the engine holds."""
@@ -127,10 +153,5 @@ class Peer:
         self.close()
 
 
-def whole_steps(duration, dt):
-    """How many steps of dt make up the duration; an error where it isn't a whole number."""
-    duration = inputs.number("duration", duration, least=0)
-    steps = round(duration / dt)
-    if not math.isclose(steps * dt, duration, rel_tol=1e-9, abs_tol=1e-12):
-        raise ValueError(f"duration must be a whole number of dt = {dt!r}, but is {duration!r}, {duration / dt:.9g} of them")
-    return steps
+def _arrays(state):
+    return state.position, state.orientation, state.velocity, state.angular_velocity

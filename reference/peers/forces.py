@@ -7,28 +7,15 @@ Slides S4, S18; lectures/02_equation_of_motion.md.
 """
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
 from ..compiled import plain
 from ..rotation import cross, rotate, rotate_back
 from ..shapes import Point
+from ..trajectory import BodyState
 
 _cross, _rotate, _rotate_back = plain(cross), plain(rotate), plain(rotate_back)
-
-
-class Snapshot(NamedTuple):
-    """All n bodies at one time, in the order added, world frame; arrays shaped as one record of a Trajectory.
-
-    position, velocity (n, d); orientation (n, 4), or (n,) in the plane; angular_velocity (n, 3) or (n,); SI units.
-    """
-
-    time: float
-    position: np.ndarray
-    orientation: np.ndarray
-    velocity: np.ndarray
-    angular_velocity: np.ndarray
 
 
 class Forces:
@@ -60,7 +47,7 @@ class Forces:
         if self.G:
             self._add_gravitation(x, force)
         if self.user_forces:
-            self._add_user_forces(Snapshot(t, np.array(x), np.array(q), np.array(v), np.array(ω)), force, torque)
+            self._add_user_forces(BodyState(t, np.array(x), np.array(q), np.array(v), np.array(ω)), force, torque)
         return force, torque
 
     def _fixed_point(self, i, point):
@@ -116,13 +103,13 @@ class Forces:
                     scale = self.G * self.bodies[i].mass * self.bodies[j].mass / distance**3
                     force[i], force[j] = _plus(force[i], span, scale), _plus(force[j], span, -scale)
 
-    def _add_user_forces(self, snapshot, force, torque):
+    def _add_user_forces(self, state, force, torque):
         for user_force in self.user_forces:
-            f, τ = (np.asarray(part, dtype=float) for part in user_force(snapshot.time, snapshot))
-            if f.shape != snapshot.position.shape or τ.shape != snapshot.angular_velocity.shape:
+            f, τ = (np.asarray(part, dtype=float) for part in user_force(state.time, state))
+            if f.shape != state.position.shape or τ.shape != state.angular_velocity.shape:
                 raise ValueError(
-                    f"f(t, state) must return a force of shape {snapshot.position.shape} and a torque of shape "
-                    f"{snapshot.angular_velocity.shape}, but returned shapes {f.shape} and {τ.shape}")
+                    f"f(t, state) must return a force of shape {state.position.shape} and a torque of shape "
+                    f"{state.angular_velocity.shape}, but returned shapes {f.shape} and {τ.shape}")
             for i in range(len(force)):
                 force[i], torque[i] = _plus(force[i], f[i].tolist()), _plus(torque[i], τ[i].tolist())
 
