@@ -41,8 +41,8 @@ class Namespace:
     """Where cells run: one module's names, with what a notebook finds there."""
 
     def __init__(self):
-        module = types.ModuleType("__main__")
-        self.names = module.__dict__
+        self.module = types.ModuleType("__main__")
+        self.names = self.module.__dict__
         self.names.update(display=lambda *things, **options: None, get_ipython=lambda: Shell(self))
 
     def run(self, source, name="cell"):

@@ -39,7 +39,7 @@ def difference(expected, got, floor=1.0):
             return math.inf, f"a dict with the keys {', '.join(expected)} is expected, not {kind_of(got)}"
         return _worst((key, *difference(expected[key], got[key], floor)) for key in expected)
     if isinstance(expected, tuple):
-        if not isinstance(got, (tuple, np.ndarray)) or np.ndim(got) == 0 or len(got) != len(expected):
+        if not isinstance(got, tuple) and not (isinstance(got, np.ndarray) and got.ndim) or len(got) != len(expected):
             return math.inf, f"{len(expected)} values are expected, not {kind_of(got)}"
         pairs = enumerate(zip(expected, got, strict=True))
         return _worst((f"value {i + 1}", *difference(e, g, floor)) for i, (e, g) in pairs)
@@ -88,7 +88,7 @@ def kind_of(value):
     if isinstance(value, dict):
         return f"a dict with the keys {', '.join(value)}"
     if isinstance(value, tuple):
-        return f"a tuple of {len(value)}"
+        return f"a tuple of {len(value)}" if _as_numbers(value) is None else f"{len(value)} values"
     shape = np.shape(value) if not hasattr(value, "toarray") else value.shape
     return "a number" if shape == () else f"an array of shape {shape}"
 

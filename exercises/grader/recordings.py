@@ -7,6 +7,7 @@ recording speaks. Checks draw their cases from the recorded inputs (`pool`), so 
 """
 
 import argparse
+import contextlib
 import importlib.metadata
 import json
 import os
@@ -16,7 +17,7 @@ from functools import cached_property
 from importlib.util import find_spec
 from pathlib import Path
 
-from exercises.grader.replies import pack, unpack
+import numpy as np
 
 
 class Unrecorded(Exception):
@@ -42,7 +43,7 @@ class EngineOracle:
     @property
     def pool(self):
         """The recorded inputs."""
-        return [unpack(entry["inputs"]) for entry in self.recording["cases"]]
+        return [_read(entry["inputs"]) for entry in self.recording["cases"]]
 
     def __call__(self, values):
         key = _key(values), self.live
@@ -53,7 +54,7 @@ class EngineOracle:
     def _recorded(self, key):
         for entry in self.recording["cases"]:
             if json.dumps(entry["inputs"]) == key:
-                return unpack(entry["output"])
+                return _read(entry["output"])
         raise Unrecorded(f"{self.engine} is not installed here, and {self.path.name} does not hold this case: "
                          f"check with the usual seed's pool of cases, or where {self.engine} is installed")
 
@@ -66,7 +67,7 @@ class EngineOracle:
 
     def record(self):
         """Runs the engine on all inputs, and writes the recording."""
-        cases = [{"inputs": pack(values), "output": pack(self.run(**values))} for values in self.inputs()]
+        cases = [{"inputs": _plain(values), "output": _plain(self.run(**values))} for values in self.inputs()]
         head = {"engine": self.engine, "version": importlib.metadata.version(self.engine), "settings": self.settings,
                 "platform": f"{platform.system()} {platform.machine()}, Python {platform.python_version()}"}
         lines = ",\n".join("  " + json.dumps(case) for case in cases)
@@ -74,8 +75,39 @@ class EngineOracle:
         self.path.write_text(text, encoding="utf-8")
 
 
+@contextlib.contextmanager
+def silence():
+    """Nothing reaches the terminal, not even from compiled code: some engines announce themselves when imported."""
+    sys.stderr.flush()
+    nowhere, kept = os.open(os.devnull, os.O_WRONLY), [(number, os.dup(number)) for number in (1, 2)]
+    try:
+        for number, _ in kept:
+            os.dup2(nowhere, number)
+        yield
+    finally:
+        for number, copy in kept:
+            os.dup2(copy, number)
+            os.close(copy)
+        os.close(nowhere)
+
+
 def _key(values):
-    return json.dumps(pack(values))
+    return json.dumps(_plain(values))
+
+
+def _plain(value):
+    """As JSON that can be read and compared by eye; floats are written so that they return exactly."""
+    if isinstance(value, np.ndarray):
+        return {"array": value.tolist()}
+    if isinstance(value, dict):
+        return {key: _plain(item) for key, item in value.items()}
+    return [_plain(item) for item in value] if isinstance(value, (tuple, list)) else value
+
+
+def _read(data):
+    if isinstance(data, dict):
+        return np.array(data["array"]) if "array" in data else {key: _read(item) for key, item in data.items()}
+    return tuple(_read(item) for item in data) if isinstance(data, list) else data
 
 
 def main(arguments=None):
@@ -84,7 +116,7 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="python -m exercises.grader.recordings", description="Re-records a unit.")
     parser.add_argument("--unit", required=True)
     unit = exercises.slug(parser.parse_args(arguments).unit)
-    for oracle in exercises.part(unit, "checks").ENGINES:
+    for oracle in exercises.part(unit, "engines").ENGINES:
         oracle.record()
         print(f"recorded {len(oracle.recording['cases'])} cases of {oracle.engine} in {oracle.path.name}")
 

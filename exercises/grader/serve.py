@@ -26,8 +26,7 @@ def main(unit):
     exercises.silent = True
     absent.hide()
     namespace = Namespace()
-    sys.modules["__main__"].__dict__.update(namespace.names)
-    namespace.names = sys.modules["__main__"].__dict__      # classes and njit functions look their module up by name
+    sys.modules["__main__"] = namespace.module         # classes and compiled functions look their module up by name
     worker = Worker(namespace.names, exercises.part(unit, "given"))
     for line in inbox:
         request = json.loads(line)

@@ -9,10 +9,11 @@ checks pass, 1 if some fail, 2 if the file could not be checked.
 import argparse
 import json
 import sys
+import traceback
 from pathlib import Path
 
 import exercises
-from exercises.grader.cells import Unreadable, read_cells
+from exercises.grader.cells import read_cells
 from exercises.grader.check import SELF_STUDY_SEED
 from exercises.grader.marking import mark
 from exercises.grader.notebook import page
@@ -27,9 +28,17 @@ def main(arguments=None):
     try:
         unit = exercises.slug(options.unit)
         cells = read_cells(options.path)
-        results, troubles = check_cells(unit, cells, options.path.resolve().parent, options.seed, options.limit)
-    except (ValueError, OSError, Unreadable, Unrecorded) as error:
+    except ValueError as error:                     # Unreadable is one
         print(error, file=sys.stderr)
+        return 2
+    try:
+        results, troubles = check_cells(unit, cells, options.path.resolve().parent, options.seed, options.limit)
+    except Unrecorded as error:
+        print(error, file=sys.stderr)
+        return 2
+    except Exception:
+        traceback.print_exc()
+        print("The check itself went wrong: this is not a fault of the checked file.", file=sys.stderr)
         return 2
     _tell_troubles(cells, troubles)
     summary = summarise(unit, results)
