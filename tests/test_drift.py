@@ -4,9 +4,9 @@ from pathlib import PurePosixPath
 
 import pytest
 
-from house import notebooks, sample
-from house.drift import drift_faults, tag_faults
-from house.sample import (
+from tests.house import notebooks, sample
+from tests.house.drift import drift_faults, tag_faults
+from tests.house.sample import (
     BODIES,
     BODIES_CELL,
     INTEGRATORS,
@@ -17,7 +17,7 @@ from house.sample import (
     lesson,
     write_notebook,
 )
-from house.tree import ROOT, tracked
+from tests.house.tree import ROOT, tracked
 
 
 def identify(file):

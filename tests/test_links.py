@@ -4,10 +4,10 @@ from pathlib import PurePosixPath
 
 import pytest
 
-from house import sample
-from house.links import anchors, back_faults, index_faults, link_faults, links, page_faults
-from house.sample import BODIES, EXERCISE, LESSON, PAGE, SLUG, edit
-from house.tree import ROOT, UNITS, pages
+from tests.house import sample
+from tests.house.links import anchors, back_faults, index_faults, link_faults, links, page_faults
+from tests.house.sample import BODIES, EXERCISE, LESSON, PAGE, SLUG, edit
+from tests.house.tree import ROOT, UNITS, pages
 
 WRITTEN = pages(ROOT)
 

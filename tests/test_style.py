@@ -5,9 +5,9 @@ import subprocess
 
 import pytest
 
-from house import sample, style
-from house.sample import BODIES, INTEGRATORS, LESSON, PAGE, edit
-from house.tree import ROOT
+from tests.house import sample, style
+from tests.house.sample import BODIES, INTEGRATORS, LESSON, PAGE, edit
+from tests.house.tree import ROOT
 
 RULES = {
     "order of modules": style.order_faults,

@@ -214,11 +214,8 @@ def back_faults(root):
     faults = []
     written = tree.pages(root)
     for file in tree.tracked(root, ".ipynb"):
-        if (
-            file.parts[0] not in ("notebooks", "exercises")
-            or file.parts[0] == "exercises"
-            and len(file.parts) > 3
-        ):
+        depth = {"notebooks": 2, "exercises": 3}.get(file.parts[0], 0)
+        if len(file.parts) > depth:
             continue  # solutions and mistakes of an exercise are not a student's
         if file.stem not in written or file not in (tree.notebook_of(file.stem), tree.exercise_of(file.stem)):
             faults.append(f"{file}: no unit's page belongs to it")

@@ -128,7 +128,7 @@ def lesson():
             code(f"assert x == {number}"),
         ]
     cells += [text("## Against the engine"), code("np.testing.assert_allclose(1.0, 1.0)")]
-    return cells + [text("## Recap"), text("## On your own"), code("x = 0")]
+    return [*cells, text("## Recap"), text("## On your own"), code("x = 0")]
 
 
 def exercise():

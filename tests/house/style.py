@@ -1,6 +1,7 @@
 """Style: order of the modules, size of what a reader meets, words and paths that have no place here."""
 
 import ast
+import functools
 import json
 import os
 import re
@@ -12,7 +13,7 @@ from urllib.parse import urlsplit
 from . import tree
 
 # DESIGN, section 2: each module imports only from its own line or those above. A name covers a package.
-# Beside DESIGN's modules: inputs (what a user may hand in), inertia (of a shape), forces (f_e).
+# Beside DESIGN's modules: inputs (what a user may hand in), inertia (of a shape), forces (f_e), bench_report.
 LAYERS = (
     ("compiled", "inputs"),
     ("rotation", "inertia", "shapes", "joints", "scene"),
@@ -23,7 +24,7 @@ LAYERS = (
     ("trajectory",),
     ("simulators",),
     ("continuum",),
-    ("cases", "peers", "measure", "bench", "view"),
+    ("cases", "peers", "measure", "bench", "bench_report", "view"),
 )
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 
@@ -195,16 +196,19 @@ def _place(file, words, start):
 def registry_hosts():
     """The hosts that this machine's own pip is pointed at, if any."""
     urls = [os.environ.get(name, "") for name in ("PIP_INDEX_URL", "PIP_EXTRA_INDEX_URL", "UV_INDEX_URL")]
-    done = subprocess.run(
-        [sys.executable, "-m", "pip", "config", "list"], capture_output=True, text=True, check=False
-    )
-    urls += re.findall(r"index-url='([^']+)'", done.stdout)
-    hosts = {urlsplit(url).hostname or "" for line in urls for url in line.split()}
+    hosts = {urlsplit(url).hostname or "" for line in [*urls, *_pip_urls()] for url in line.split()}
     return sorted(host for host in hosts if "." in host and not host[0].isdigit())
 
 
+@functools.cache
+def _pip_urls():
+    command = [sys.executable, "-m", "pip", "config", "list"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    return re.findall(r"index-url='([^']+)'", done.stdout)
+
+
 def layout_faults(root):
-    """What stands at the top beyond DESIGN, section 1; and what was made by a tool, or is too big to be text."""
+    """What stands at the top beyond DESIGN, section 1; and what a tool made, or is too big to be text."""
     files = tree.tracked(root)
     faults = sorted(
         {f"{file.parts[0]}: has no place at the top" for file in files if file.parts[0] not in TOP}
