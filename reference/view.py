@@ -20,10 +20,10 @@ from .rotation import over_arrays, rotate, rotate_in_plane
 from .shapes import Box, Capsule, Disc, Plane, Point, Polygon, Sphere
 
 BLUE, VERMILLION, GREEN, ORANGE = "#0072B2", "#D55E00", "#009E73", "#E69F00"
-PURPLE, SKY, YELLOW, BLACK = "#CC79A7", "#56B4E9", "#F0E442", "#000000"
-COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK)
+PURPLE, SKY, YELLOW, BLACK, GREY = "#CC79A7", "#56B4E9", "#F0E442", "#000000", "#777777"
+COLOURS = (BLUE, VERMILLION, GREEN, ORANGE, PURPLE, SKY, BLACK, GREY)
 SIDES = (BLUE, SKY, VERMILLION, ORANGE, GREEN, YELLOW)  # of a box: −x, +x, −y, +y, −z, +z
-DASHES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)))
+DASHES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (8, 2, 1, 2)))
 
 
 def use_style():
@@ -157,11 +157,16 @@ def draw(scene, run, k=-1, axes=None, view=(20, 30), path=False):
     for spring in scene.springs:
         ends = [_where(scene, run, k, i, p) @ camera.T for i, p in ((spring.a, spring.point_a), (spring.b, spring.point_b))]
         axes.plot(*np.array(ends)[:, :2].T, color="grey", linewidth=1.5, linestyle=":", zorder=4)
-    reach = max([1e-3] + [_radius(body.shape, d) for body in scene.bodies])
-    low, high = np.nanmin(seen[..., :2], axis=(0, 1)) - 1.1 * reach, np.nanmax(seen[..., :2], axis=(0, 1)) + 1.1 * reach
+    low, high = _limits(scene, seen)
     axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal", xlabel="x (m)" if d == 2 else "right (m)",
              ylabel="y (m)" if d == 2 else "up (m)", title=f"t = {run.time[k]:.4g} s")
     return axes
+
+
+def _limits(scene, seen):
+    """The lower left and upper right corner of all that a run shows."""
+    reach = 1.1 * max([1e-3] + [_radius(body.shape, scene.dimension) for body in scene.bodies])
+    return np.nanmin(seen[..., :2], axis=(0, 1)) - reach, np.nanmax(seen[..., :2], axis=(0, 1)) + reach
 
 
 def _draw_body(axes, body, position, orientation, camera):
@@ -202,7 +207,9 @@ def key_frames(scene, run, frames=5, view=(20, 30), path=False):
     """A Figure with the bodies at ``frames`` instants, evenly spread over the run, side by side."""
     if not 1 <= frames <= 12:
         raise ValueError(f"frames must be a number from 1 to 12, but is {frames!r}")
-    figure, panels = plt.subplots(1, frames, figsize=(1.9 * frames, 2.5), sharey=True, squeeze=False)
+    (left, bottom), (right, top) = _limits(scene, run.position @ _camera(view).T if scene.dimension == 3 else run.position)
+    height = 0.8 + np.clip(1.6 * (top - bottom) / (right - left), 0.7, 4)
+    figure, panels = plt.subplots(1, frames, figsize=(1.9 * frames, height), sharey=True, squeeze=False)
     for axes, k in zip(panels[0], np.linspace(0, len(run.time) - 1, frames).round().astype(int), strict=True):
         draw(scene, run, k, axes, view, path)
         axes.label_outer()
