@@ -43,9 +43,9 @@ import weakref
 
 import numpy as np
 
+from ..compiled import plain
 from ..inertia import principal_axes
 from ..rotation import conjugate, multiply
-from ..compiled import plain
 from ..scene import Unsupported
 from ..shapes import Point
 from .engine import Engine, Peer
