@@ -16,23 +16,28 @@ import numpy as np
 from .compiled import compiled
 from .inertia import principal_axes
 from .rotation import (
-    conjugate, cross, multiply, normalise, over_arrays, quaternion_rate, rotate, rotate_back, rotate_in_plane,
+    add, conjugate, cross, multiply, normalise, over_arrays, quaternion, quaternion_rate, rotate, rotate_back,
+    rotate_in_plane, store, store_quaternion, vector,
 )
 from .shapes import Point
 
 
 class State(NamedTuple):
-    """What changes: views into one flat vector y. m bodies move, the first r of them rotate.
+    """What changes: views into one flat vector y = (x, q, u). m bodies move, the first r of them rotate.
 
-    x (m, d) m; q (r, 4), or (r, 1) angles in the plane; v (m, d) m/s; ω (r, 3) or (r, 1) rad/s; all in the world frame.
-    A rate of change, and a force, have the same layout.
+    x (m, d) m; q (r, 4), or (r, 1) angles in the plane; u: all velocities, v and ω stacked; v (m, d) m/s; ω (r, 3) or
+    (r, 1) rad/s; all in the world frame. A rate of change, and a force, have the same layout.
+    L (r, 3), or (0, 3) in the plane: the angular momentum of each body about its centre. ω tells it too; integrators
+    that keep it to the last bit carry it from step to step, the others leave it alone.
     """
 
     y: np.ndarray
     x: np.ndarray
     q: np.ndarray
+    u: np.ndarray
     v: np.ndarray
     ω: np.ndarray
+    L: np.ndarray
 
 
 class System(NamedTuple):
@@ -56,18 +61,10 @@ class System(NamedTuple):
 def make_state(m, r, d):
     """A State of zeros for m bodies in d dimensions, of which r rotate."""
     orientation, spin = (4, 3) if d == 3 else (1, 1)
-    y = np.zeros(2 * m * d + r * (orientation + spin))
     i, j, k = m * d, m * d + r * orientation, 2 * m * d + r * orientation
-    return State(
-        y, y[:i].reshape((m, d)), y[i:j].reshape((r, orientation)), y[j:k].reshape((m, d)), y[k:].reshape((r, spin))
-    )
-
-
-@compiled
-def store(row, components):
-    """Write the components of a vector into a row of an array."""
-    for k in range(len(row)):
-        row[k] = components[k]
+    y = np.zeros(k + r * spin)
+    x, q, v, ω = y[:i].reshape((m, d)), y[i:j].reshape((r, orientation)), y[j:k].reshape((m, d)), y[k:].reshape((r, spin))
+    return State(y, x, q, y[j:], v, ω, np.zeros((r if d == 3 else 0, 3)))
 
 
 @compiled
@@ -77,10 +74,15 @@ def planar(state):
 
 
 @compiled
-def angular_momentum_in_body(q, ω, inertia):
-    """I Rᵀ ω: the angular momentum about the centre, in the principal frame, from ω in the world frame."""
-    spin = rotate_back(q, ω)
-    return inertia[0] * spin[0], inertia[1] * spin[1], inertia[2] * spin[2]
+def times(I, ω):
+    """I ω for the principal moments I."""
+    return I[0] * ω[0], I[1] * ω[1], I[2] * ω[2]
+
+
+@compiled
+def divided(L, I):
+    """I⁻¹ L for the principal moments I."""
+    return L[0] / I[0], L[1] / I[1], L[2] / I[2]
 
 
 @compiled
@@ -89,10 +91,9 @@ def add_gyroscopic_torque(system, state, τ):
     if planar(state):
         return
     for i in range(len(state.q)):
-        q, ω = state.q[i], state.ω[i]
-        gyroscopic = cross(ω, rotate(q, angular_momentum_in_body(q, ω, system.inertia[i])))
-        for k in range(3):
-            τ[i, k] -= gyroscopic[k]
+        q, ω = quaternion(state.q, i), vector(state.ω, i)
+        L = rotate(q, times(vector(system.inertia, i), rotate_back(q, ω)))
+        add(τ, i, cross(L, ω))
 
 
 @compiled
@@ -105,21 +106,21 @@ def solve_mass(system, q, f, τ):
         if q.shape[1] == 1:
             τ[i, 0] /= system.inertia[i, 0]
         else:
-            torque = rotate_back(q[i], τ[i])
-            I = system.inertia[i]
-            store(τ[i], rotate(q[i], (torque[0] / I[0], torque[1] / I[1], torque[2] / I[2])))
+            frame = quaternion(q, i)
+            store(τ, i, rotate(frame, divided(rotate_back(frame, vector(τ, i)), vector(system.inertia, i))))
 
 
 @compiled
 def velocity_to_rate(state, rate):
     """ẋ = v and q̇ = E(q) ω (S9); an angle's rate is ω itself."""
     for i in range(len(state.x)):
-        store(rate.x[i], state.v[i])
+        for k in range(state.x.shape[1]):
+            rate.x[i, k] = state.v[i, k]
     for i in range(len(state.q)):
         if planar(state):
             rate.q[i, 0] = state.ω[i, 0]
         else:
-            store(rate.q[i], quaternion_rate(state.q[i], state.ω[i]))
+            store_quaternion(rate.q, i, quaternion_rate(quaternion(state.q, i), vector(state.ω, i)))
 
 
 @compiled
@@ -127,7 +128,7 @@ def normalise_all(state):
     """Bring each quaternion back to norm 1."""
     if not planar(state):
         for i in range(len(state.q)):
-            store(state.q[i], normalise(state.q[i]))
+            store_quaternion(state.q, i, normalise(quaternion(state.q, i)))
 
 
 class Bodies:
@@ -168,6 +169,9 @@ class Bodies:
         state.q[:] = over_arrays(multiply)(q, self.principal) if self.dimension == 3 else q[:, None]
         spin = self.angular_velocity if angular_velocity is None else angular_velocity
         state.ω[:] = spin[self.rotating].reshape(state.ω.shape)
+        if self.dimension == 3:
+            in_principal = over_arrays(rotate)(over_arrays(conjugate)(state.q), state.ω)
+            state.L[:] = over_arrays(rotate)(state.q, self.moments * in_principal)
         return state
 
     def unpack(self, y):

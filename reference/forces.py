@@ -11,7 +11,7 @@ import numpy as np
 
 from .bodies import planar
 from .compiled import compiled
-from .rotation import cross, over_arrays, rotate, rotate_in_plane
+from .rotation import add, cross, over_arrays, quaternion, rotate, rotate_in_plane, vector
 
 
 @compiled
@@ -34,11 +34,10 @@ def add_gravity(system, f):
 
 
 @compiled
-def attachment(state, i, point):
-    """Arm, position and velocity, three components each, of a point fixed on body i (−1: fixed in the world)."""
+def attachment(state, i, points, s, end):
+    """Arm, position and velocity, three components each, of an end of spring s, on body i (−1: fixed in the world)."""
     d = state.x.shape[1]
-    z = point[2] if d == 3 else 0.0
-    p = (point[0], point[1], z)
+    p = (points[s, end, 0], points[s, end, 1], points[s, end, 2] if d == 3 else 0.0)
     if i < 0:
         return (0.0, 0.0, 0.0), p, (0.0, 0.0, 0.0)
     x = (state.x[i, 0], state.x[i, 1], state.x[i, 2] if d == 3 else 0.0)
@@ -49,7 +48,7 @@ def attachment(state, i, point):
         c, s = np.cos(state.q[i, 0]), np.sin(state.q[i, 0])
         arm, spin = (c * p[0] - s * p[1], s * p[0] + c * p[1], 0.0), (0.0, 0.0, state.ω[i, 0])
     else:
-        arm, spin = rotate(state.q[i], p), (state.ω[i, 0], state.ω[i, 1], state.ω[i, 2])
+        arm, spin = rotate(quaternion(state.q, i), p), vector(state.ω, i)
     turning = cross(spin, arm)
     position = (x[0] + arm[0], x[1] + arm[1], x[2] + arm[2])
     return arm, position, (v[0] + turning[0], v[1] + turning[1], v[2] + turning[2])
@@ -60,31 +59,33 @@ def apply_at(f, τ, i, arm, force):
     """Add a force that acts on body i at the end of ``arm``: the force to f, its moment arm × force to τ."""
     if i < 0:
         return
-    for k in range(f.shape[1]):
-        f[i, k] += force[k]
+    if f.shape[1] == 3:
+        add(f, i, force)
+    else:
+        f[i, 0] += force[0]
+        f[i, 1] += force[1]
     if i < len(τ):
         moment = cross(arm, force)
-        if τ.shape[1] == 1:
-            τ[i, 0] += moment[2]
+        if τ.shape[1] == 3:
+            add(τ, i, moment)
         else:
-            for k in range(3):
-                τ[i, k] += moment[k]
+            τ[i, 0] += moment[2]
 
 
 @compiled
 def add_springs(system, state, f, τ):
     """k (|Δ| − length) + c d|Δ|/dt along the spring, on both ends; nothing where the ends coincide: no direction."""
     for s in range(len(system.spring_law)):
-        a, b = system.spring_bodies[s]
-        arm_a, p_a, v_a = attachment(state, a, system.spring_points[s, 0])
-        arm_b, p_b, v_b = attachment(state, b, system.spring_points[s, 1])
+        a, b = system.spring_bodies[s, 0], system.spring_bodies[s, 1]
+        arm_a, p_a, v_a = attachment(state, a, system.spring_points, s, 0)
+        arm_b, p_b, v_b = attachment(state, b, system.spring_points, s, 1)
         Δ = (p_b[0] - p_a[0], p_b[1] - p_a[1], p_b[2] - p_a[2])
         distance = np.sqrt(Δ[0] ** 2 + Δ[1] ** 2 + Δ[2] ** 2)
         if distance == 0:
             continue
         n = (Δ[0] / distance, Δ[1] / distance, Δ[2] / distance)
         stretching = (v_b[0] - v_a[0]) * n[0] + (v_b[1] - v_a[1]) * n[1] + (v_b[2] - v_a[2]) * n[2]
-        stiffness, damping, length = system.spring_law[s]
+        stiffness, damping, length = vector(system.spring_law, s)
         tension = stiffness * (distance - length) + damping * stretching
         apply_at(f, τ, a, arm_a, (tension * n[0], tension * n[1], tension * n[2]))
         apply_at(f, τ, b, arm_b, (-tension * n[0], -tension * n[1], -tension * n[2]))
@@ -95,7 +96,7 @@ def add_drag(system, state, f, τ):
     """−linear·v and −angular·ω."""
     for row in range(len(system.drag_bodies)):
         i = system.drag_bodies[row]
-        linear, angular = system.drag_law[row]
+        linear, angular = system.drag_law[row, 0], system.drag_law[row, 1]
         for k in range(f.shape[1]):
             f[i, k] -= linear * state.v[i, k]
         if i < len(τ):
@@ -109,23 +110,23 @@ def add_gravitation(system, state, f):
     G, d = system.gravitation, f.shape[1]
     for i in range(len(f)):
         for j in range(i):
-            scale = G * system.mass[i] * system.mass[j] * inverse_cube(state.x[i], state.x[j])
+            scale = G * system.mass[i] * system.mass[j] * inverse_cube(state.x, i, state.x, j)
             for k in range(d):
                 pull = scale * (state.x[j, k] - state.x[i, k])
                 f[i, k] += pull
                 f[j, k] -= pull
         for j in range(len(system.fixed_masses)):
-            scale = G * system.mass[i] * system.fixed_masses[j] * inverse_cube(state.x[i], system.fixed_positions[j])
+            scale = G * system.mass[i] * system.fixed_masses[j] * inverse_cube(state.x, i, system.fixed_positions, j)
             for k in range(d):
                 f[i, k] += scale * (system.fixed_positions[j, k] - state.x[i, k])
 
 
 @compiled
-def inverse_cube(a, b):
-    """1 / |b − a|³."""
+def inverse_cube(a, i, b, j):
+    """1 / |b_j − a_i|³ for rows of positions."""
     squared = 0.0
-    for k in range(len(a)):
-        squared += (b[k] - a[k]) ** 2
+    for k in range(a.shape[1]):
+        squared += (b[j, k] - a[i, k]) ** 2
     return 1 / (squared * np.sqrt(squared))
 
 

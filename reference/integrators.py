@@ -17,11 +17,12 @@ from typing import NamedTuple
 import numpy as np
 
 from .bodies import (
-    State, add_gyroscopic_torque, angular_momentum_in_body, make_state, normalise_all, planar, solve_mass, store,
-    velocity_to_rate,
+    State, add_gyroscopic_torque, divided, make_state, normalise_all, planar, solve_mass, times, velocity_to_rate,
 )
 from .compiled import bind, compiled
-from .rotation import cayley, cross, exponential, multiply, normalise, rotate, rotate_back
+from .rotation import (
+    cayley, cross, exponential, multiply, normalise, quaternion, rotate, rotate_back, store, store_quaternion, vector,
+)
 
 
 class Work(NamedTuple):
@@ -43,20 +44,30 @@ def make_work(m, r, d, max_iterations, tolerance):
 
 @compiled
 def add_scaled(y, h, rate):
-    """y += h · rate, for arrays of one or two dimensions."""
-    to, by = y.reshape(-1), rate.reshape(-1)
-    for k in range(len(to)):
-        to[k] += h * by[k]
+    """y += h · rate, for flat arrays."""
+    for k in range(len(y)):
+        y[k] += h * rate[k]
 
 
 @compiled
-def turn(q, h, ω):
-    """Turn each orientation for the time h at the constant angular velocity ω: q ← exp(h ω) ⊗ q, of norm 1 exactly."""
-    for i in range(len(q)):
-        if q.shape[1] == 1:
-            q[i, 0] += h * ω[i, 0]
+def copy(y, to):
+    """Copy a flat array."""
+    for k in range(len(y)):
+        to[k] = y[k]
+
+
+@compiled
+def drift(state, h):
+    """Move on for the time h at constant velocities: x += h v, and each q turns by h ω, its norm kept exactly."""
+    for i in range(len(state.x)):
+        for k in range(state.x.shape[1]):
+            state.x[i, k] += h * state.v[i, k]
+    for i in range(len(state.q)):
+        if planar(state):
+            state.q[i, 0] += h * state.ω[i, 0]
         else:
-            store(q[i], multiply(exponential((h * ω[i, 0], h * ω[i, 1], h * ω[i, 2])), q[i]))
+            turned = exponential((h * state.ω[i, 0], h * state.ω[i, 1], h * state.ω[i, 2]))
+            store_quaternion(state.q, i, multiply(turned, quaternion(state.q, i)))
 
 
 @compiled
@@ -78,23 +89,19 @@ def symplectic_euler(force, system, t, h, state, work):
     force(system, t, state, rate.v, rate.ω)
     add_gyroscopic_torque(system, state, rate.ω)
     solve_mass(system, state.q, rate.v, rate.ω)
-    add_scaled(state.v, h, rate.v)
-    add_scaled(state.ω, h, rate.ω)
-    add_scaled(state.x, h, state.v)
-    turn(state.q, h, state.ω)
+    add_scaled(state.u, h, rate.u)
+    drift(state, h)
 
 
 @compiled
 def symplectic_euler_position_first(force, system, t, h, state, work):
     """Position first: x ← x + h v, then u ← u + h M⁻¹ f(new x, u); the adjoint of the other one (what pymunk does)."""
     rate = work.rate
-    add_scaled(state.x, h, state.v)
-    turn(state.q, h, state.ω)
+    drift(state, h)
     force(system, t + h, state, rate.v, rate.ω)
     add_gyroscopic_torque(system, state, rate.ω)
     solve_mass(system, state.q, rate.v, rate.ω)
-    add_scaled(state.v, h, rate.v)
-    add_scaled(state.ω, h, rate.ω)
+    add_scaled(state.u, h, rate.u)
 
 
 @compiled
@@ -106,20 +113,19 @@ def implicit_gyroscopic(force, system, t, h, state, work):
     rate = work.rate
     force(system, t, state, rate.v, rate.ω)
     solve_mass(system, state.q, rate.v, rate.ω)
-    add_scaled(state.v, h, rate.v)
-    add_scaled(state.ω, h, rate.ω)
+    add_scaled(state.u, h, rate.u)
     if not planar(state):
         for i in range(len(state.q)):
-            gyroscopic_newton_step(state.q[i], state.ω[i], h, system.inertia[i])
-    add_scaled(state.x, h, state.v)
-    turn(state.q, h, state.ω)
+            s, q = vector(state.ω, i), quaternion(state.q, i)
+            s = gyroscopic_newton_step(rotate_back(q, s), vector(system.inertia, i), h)
+            store(state.ω, i, rotate(q, s))
+    drift(state, h)
 
 
 @compiled
-def gyroscopic_newton_step(q, ω, h, I):
-    """One step towards I (ω′ − ω) + h ω′ × I ω′ = 0, in the body's frame; changes ω."""
-    s = rotate_back(q, ω)
-    L = (I[0] * s[0], I[1] * s[1], I[2] * s[2])
+def gyroscopic_newton_step(s, I, h):
+    """The angular velocity after one step towards I (s′ − s) + h s′ × I s′ = 0, all in the body's principal frame."""
+    L = times(I, s)
     g = cross(s, L)
     change = solve3(
         (I[0], h * (L[2] - s[2] * I[1]), h * (s[1] * I[2] - L[1])),
@@ -127,7 +133,7 @@ def gyroscopic_newton_step(q, ω, h, I):
         (h * (L[1] - s[1] * I[0]), h * (s[0] * I[1] - L[0]), I[2]),
         (h * g[0], h * g[1], h * g[2]),
     )
-    store(ω, rotate(q, (s[0] - change[0], s[1] - change[1], s[2] - change[2])))
+    return s[0] - change[0], s[1] - change[1], s[2] - change[2]
 
 
 @compiled
@@ -142,25 +148,26 @@ def solve3(a, b, c, r):
     )
 
 
-RK4_STAGES = ((0.0, 1 / 6), (0.5, 1 / 3), (0.5, 1 / 3), (1.0, 1 / 6))  # when (in steps), weight
+RK4_WHEN = np.array([0, 1 / 2, 1 / 2, 1])  # in steps
+RK4_WEIGHT = np.array([1 / 6, 1 / 3, 1 / 3, 1 / 6])
 
 
 @compiled
 def rk4(force, system, t, h, state, work):
     """The classical Runge–Kutta method of order 4: a weighted mean of four rates. Source: Kutta (1901)."""
     rate, start, total = work.rate, work.start, work.total
-    start.y[:] = state.y
-    total.y[:] = state.y
-    for when, weight in RK4_STAGES:
-        if when > 0:
-            state.y[:] = start.y
-            add_scaled(state.y, when * h, rate.y)
-        force(system, t + when * h, state, rate.v, rate.ω)
+    copy(state.y, start.y)
+    copy(state.y, total.y)
+    for stage in range(4):
+        if stage > 0:
+            copy(start.y, state.y)
+            add_scaled(state.y, RK4_WHEN[stage] * h, rate.y)
+        force(system, t + RK4_WHEN[stage] * h, state, rate.v, rate.ω)
         add_gyroscopic_torque(system, state, rate.ω)
         solve_mass(system, state.q, rate.v, rate.ω)
         velocity_to_rate(state, rate)
-        add_scaled(total.y, weight * h, rate.y)
-    state.y[:] = total.y
+        add_scaled(total.y, RK4_WEIGHT[stage] * h, rate.y)
+    copy(total.y, state.y)
     normalise_all(state)
 
 
@@ -171,15 +178,13 @@ def splitting(force, system, t, h, state, work):
     The drift turns a free body about its principal axes in turn, each turn solved exactly. Sources: McLachlan, Phys.
     Rev. Lett. 71 (1993) 3043; Reich, Physica D 76 (1994) 375; Hairer, Lubich & Wanner VII.5.3.
     """
-    add_scaled(state.x, h / 2, state.v)
-    free_rotation_by_axes(system, h / 2, state)
+    drift_by_axes(system, h / 2, state)
     force(system, t + h / 2, state, work.rate.v, work.rate.ω)
     if system.velocity_dependent:  # the force at the middle of the kick
         move_half_kicked(system, h, state, work)
         force(system, t + h / 2, work.start, work.rate.v, work.rate.ω)
     kick(system, h, state, work.rate)
-    add_scaled(state.x, h / 2, state.v)
-    free_rotation_by_axes(system, h / 2, state)
+    drift_by_axes(system, h / 2, state)
 
 
 @compiled
@@ -188,78 +193,88 @@ def implicit_midpoint(force, system, t, h, state, work):
 
     Source: Simo & Wong, Int. J. Numer. Meth. Engng 31 (1991) 19; the update of q is Cayley's.
     """
-    add_scaled(state.x, h / 2, state.v)
-    free_rotation_by_midpoint(system, h / 2, state, work)
+    drift_by_midpoint(system, h / 2, state, work)
     force(system, t + h / 2, state, work.rate.v, work.rate.ω)
     if system.velocity_dependent:
         move_half_kicked(system, h, state, work)
         force(system, t + h / 2, work.start, work.rate.v, work.rate.ω)
     kick(system, h, state, work.rate)
-    add_scaled(state.x, h / 2, state.v)
-    free_rotation_by_midpoint(system, h / 2, state, work)
+    drift_by_midpoint(system, h / 2, state, work)
 
 
 @compiled
 def kick(system, h, state, forces):
-    """u += h M⁻¹ f at fixed positions; the gyroscopic term belongs to the drift. Overwrites the forces."""
+    """u += h M⁻¹ f and L += h τ, at fixed positions; the gyroscopic term belongs to the drift. Overwrites the forces."""
+    for i in range(len(state.L)):
+        add_scaled(state.L[i], h, forces.ω[i])
     solve_mass(system, state.q, forces.v, forces.ω)
-    add_scaled(state.v, h, forces.v)
-    add_scaled(state.ω, h, forces.ω)
+    add_scaled(state.u, h, forces.u)
 
 
 @compiled
 def move_half_kicked(system, h, state, work):
     """The state after half a kick, in ``work.start``."""
-    work.start.y[:] = state.y
+    copy(state.y, work.start.y)
     kick(system, h / 2, work.start, work.rate)
 
 
 @compiled
-def free_rotation_by_axes(system, h, state):
-    """Turn freely for the time h: about the principal axes 1, 2, 3, 2, 1 in turn, as if each were the only one."""
-    if planar(state):
-        turn(state.q, h, state.ω)
-        return
-    for i in range(len(state.q)):
-        I = system.inertia[i]
-        q = normalise(state.q[i])
-        L = angular_momentum_in_body(q, state.ω[i], I)
+def drift_by_axes(system, h, state):
+    """Move freely for the time h; rotate about the principal axes 1, 2, 3, 2, 1 in turn, as if each were the only one."""
+    drift_all_but_rotation(state, h)
+    for i in range(0 if planar(state) else len(state.q)):
+        I = vector(system.inertia, i)
+        q = quaternion(state.q, i)
+        L = rotate_back(q, vector(state.L, i))
         q, L = turn_body(q, L, (h / 2 * L[0] / I[0], 0.0, 0.0))
         q, L = turn_body(q, L, (0.0, h / 2 * L[1] / I[1], 0.0))
         q, L = turn_body(q, L, (0.0, 0.0, h * L[2] / I[2]))
         q, L = turn_body(q, L, (0.0, h / 2 * L[1] / I[1], 0.0))
         q, L = turn_body(q, L, (h / 2 * L[0] / I[0], 0.0, 0.0))
-        store(state.q[i], q)
-        store(state.ω[i], rotate(q, (L[0] / I[0], L[1] / I[1], L[2] / I[2])))
+        finish_free_rotation(state, i, normalise(q), I)
+
+
+@compiled
+def drift_all_but_rotation(state, h):
+    """x += h v; an angle in the plane turns by h ω."""
+    for i in range(len(state.x)):
+        for k in range(state.x.shape[1]):
+            state.x[i, k] += h * state.v[i, k]
+    for i in range(len(state.q) if planar(state) else 0):
+        state.q[i, 0] += h * state.ω[i, 0]
 
 
 @compiled
 def turn_body(q, L, φ):
-    """Turn a body by φ, in its own frame: its attitude q, and L as seen from it; in the world L stays what it was."""
+    """Turn a body by φ, in its own frame: its attitude q, and the momentum L as seen from it, which turns back."""
     turned = exponential(φ)
     return multiply(q, turned), rotate_back(turned, L)
 
 
 @compiled
-def free_rotation_by_midpoint(system, h, state, work):
-    """Turn freely for the time h with the angular velocity of the middle, L_m = L + ½ h L_m × I⁻¹ L_m (Newton's method).
+def finish_free_rotation(state, i, q, I):
+    """The new attitude, and its ω = R I⁻¹ Rᵀ L: in the world the angular momentum L is what it was, to the last bit."""
+    store_quaternion(state.q, i, q)
+    store(state.ω, i, rotate(q, divided(rotate_back(q, vector(state.L, i)), I)))
 
-    |L| is kept whatever L_m is, since L is turned; the energy as well as the equation is solved.
+
+@compiled
+def drift_by_midpoint(system, h, state, work):
+    """Move freely for the time h; rotate with the angular velocity of the middle, L_m = L + ½ h L_m × I⁻¹ L_m.
+
+    The momentum is kept whatever L_m is, the energy where the equation is solved.
     """
-    if planar(state):
-        turn(state.q, h, state.ω)
-        return
-    for i in range(len(state.q)):
-        I = system.inertia[i]
-        q = normalise(state.q[i])
-        L = angular_momentum_in_body(q, state.ω[i], I)
+    drift_all_but_rotation(state, h)
+    for i in range(0 if planar(state) else len(state.q)):
+        I = vector(system.inertia, i)
+        q = quaternion(state.q, i)
+        L = rotate_back(q, vector(state.L, i))
         middle, iterations, residual = solve_midpoint(L, I, h, work.max_iterations, work.tolerance)
         work.solve[0] = max(work.solve[0], iterations)
         work.solve[1] = max(work.solve[1], residual)
-        turned = cayley((h * middle[0] / I[0], h * middle[1] / I[1], h * middle[2] / I[2]))
-        q, L = multiply(q, turned), rotate_back(turned, L)
-        store(state.q[i], q)
-        store(state.ω[i], rotate(q, (L[0] / I[0], L[1] / I[1], L[2] / I[2])))
+        ω = divided(middle, I)
+        q = multiply(q, cayley((h * ω[0], h * ω[1], h * ω[2])))
+        finish_free_rotation(state, i, normalise(q), I)
 
 
 @compiled
@@ -286,30 +301,32 @@ def solve_midpoint(L0, I, h, max_iterations, tolerance):
 
 
 SUZUKI = 1 / (4 - 4 ** (1 / 3))
-COMPOSITION4 = (SUZUKI, SUZUKI, 1 - 4 * SUZUKI, SUZUKI, SUZUKI)
-COMPOSITION6 = (
+COMPOSITION4 = np.array([SUZUKI, SUZUKI, 1 - 4 * SUZUKI, SUZUKI, SUZUKI])
+COMPOSITION6 = np.array([
     0.39216144400731413928, 0.33259913678935943860, -0.70624617255763935981, 0.08221359629355080023,
     0.79854399093482996340,
     0.08221359629355080023, -0.70624617255763935981, 0.33259913678935943860, 0.39216144400731413928,
-)  # fmt: skip
+])  # fmt: skip
 
 
 @compiled
 def compose4(step, system, t, h, state, work):
     """Five steps of a symmetric method of order 2, one of them backwards: order 4. Source: Suzuki, Phys. Lett. A 146
     (1990) 319. With forces that depend on velocity the kick is not symmetric, and the order stays 2."""
-    for share in COMPOSITION4:
-        step(system, t, share * h, state, work)
-        t += share * h
+    for k in range(len(COMPOSITION4)):
+        share = COMPOSITION4[k] * h
+        step(system, t, share, state, work)
+        t += share
 
 
 @compiled
 def compose6(step, system, t, h, state, work):
     """Nine steps of a symmetric method of order 2: order 6. Source: Kahan & Li, Math. Comp. 66 (1997) 1089; the
     coefficients also in Hairer, Lubich & Wanner (V.3.11). With forces that depend on velocity the order stays 2."""
-    for share in COMPOSITION6:
-        step(system, t, share * h, state, work)
-        t += share * h
+    for k in range(len(COMPOSITION6)):
+        share = COMPOSITION6[k] * h
+        step(system, t, share, state, work)
+        t += share
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,6 @@ Slides S4, S9; lectures/02_equation_of_motion.md. Source: Diebel, Representing A
 Wanner, Geometric Numerical Integration (2006), section VII.5.
 """
 
-import math
-
 import numpy as np
 
 from .compiled import compiled, plain
@@ -54,6 +52,38 @@ def rotate_back(q, r):
 
 
 @compiled
+def vector(a, i):
+    """Row i of an array (n, 3) as components."""
+    return a[i, 0], a[i, 1], a[i, 2]
+
+
+@compiled
+def quaternion(a, i):
+    """Row i of an array (n, 4) as components."""
+    return a[i, 0], a[i, 1], a[i, 2], a[i, 3]
+
+
+@compiled
+def store(a, i, r):
+    """Write the components r of a vector into row i of an array (n, 3)."""
+    a[i, 0], a[i, 1], a[i, 2] = r
+
+
+@compiled
+def store_quaternion(a, i, q):
+    """Write the components of q into row i of an array (n, 4)."""
+    a[i, 0], a[i, 1], a[i, 2], a[i, 3] = q
+
+
+@compiled
+def add(a, i, r):
+    """Add the components of a vector to row i of an array (n, 3)."""
+    a[i, 0] += r[0]
+    a[i, 1] += r[1]
+    a[i, 2] += r[2]
+
+
+@compiled
 def cross(a, b):
     """The vector product a × b."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
@@ -73,9 +103,9 @@ def quaternion_rate(q, ω):
 @compiled
 def exponential(φ):
     """The quaternion of the rotation vector φ: by |φ| radians about φ. Its norm is 1 to rounding, for any φ."""
-    half = 0.5 * np.sqrt(φ[0] ** 2 + φ[1] ** 2 + φ[2] ** 2)
-    s = 0.5 * np.sinc(half / math.pi)  # sin(half) / |φ|, and ½ where φ = 0
-    return np.cos(half), s * φ[0], s * φ[1], s * φ[2]
+    angle = np.sqrt(φ[0] ** 2 + φ[1] ** 2 + φ[2] ** 2 + 1e-300)  # so that s is ½ at φ = 0, and not 0/0
+    s = np.sin(angle / 2) / angle
+    return np.cos(angle / 2), s * φ[0], s * φ[1], s * φ[2]
 
 
 @compiled

@@ -30,7 +30,8 @@ def run(step, system, state, t, h, steps, every, max_iterations, tolerance, reco
         if not all_finite(state.y):
             return done - 1
         if len(record) > 0 and (done % every == 0 or done == steps):
-            record[row], solves[row] = state.y, work.solve
+            record[row] = state.y
+            solves[row] = work.solve
             work.solve[:] = 0
             row += 1
     return steps
