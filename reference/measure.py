@@ -33,7 +33,7 @@ def worst(values, exact, scale=1.0):
 
 
 def attitude_error(orientation, exact):
-    """Largest angle (rad) between two histories of attitudes, quaternions (w, x, y, z) of shape (T, ..., 4)."""
+    """Largest angle (rad) between two histories of attitudes, quaternions (w, x, y, z): (T, …, 4)."""
     orientation, exact = np.asarray(orientation, float), np.asarray(exact, float)
     if not np.all(np.isfinite(orientation)):
         return np.inf
@@ -41,7 +41,7 @@ def attitude_error(orientation, exact):
 
 
 def drift(history):
-    """Largest departure from the first value, relative to that value where it isn't zero; history (T,) or (T, d)."""
+    """Largest departure of a history (T,) or (T, d) from its first value, relative to it where it isn't 0."""
     history = np.asarray(history, float)
     flat = history.reshape(len(history), -1)
     first = np.linalg.norm(flat[0])
@@ -52,12 +52,14 @@ def fitted_order(dts, errors):
     """Order of convergence p in error ≈ C dtᵖ, from runs at several time steps.
 
     dts (k,) and errors (k,), in any order. Points where rounding has taken over are left out: going from the
-    largest dt down, the fit stops where the local slope falls below half of the steepest so far. Of what is left,
-    the finest four points are fitted, since the power law holds for small dt.
+    largest dt down, the fit stops where the local slope falls below half of the steepest so far. Of what is
+    left, the finest four points are fitted, since the power law holds for small dt.
     """
     dts, errors = np.asarray(dts, float), np.asarray(errors, float)
     if dts.ndim != 1 or dts.shape != errors.shape or len(dts) < 2:
-        raise ValueError(f"dts and errors must be two lists of one length, at least 2; got {dts.shape} and {errors.shape}")
+        raise ValueError(
+            f"dts and errors must be two lists of one length, at least 2; got {dts.shape} and {errors.shape}"
+        )
     if not np.all(np.isfinite(dts)) or np.any(dts <= 0) or len(set(dts)) < len(dts):
         raise ValueError(f"dts must be positive and different from each other; got {dts}")
     down = np.argsort(-dts)
@@ -88,8 +90,8 @@ def _before_plateau(dts, errors):
 def period(time, signal):
     """Period of a signal by its zero crossings: mean time between crossings in the same direction.
 
-    time (T,) rising and signal (T,). Each crossing is the root of the polynomial through the eight samples around
-    it, so a smooth signal with twenty or more samples a period gives its period to about 1e-9.
+    time (T,) rising and signal (T,). Each crossing is the root of the polynomial through the eight samples
+    around it, so a smooth signal with twenty or more samples a period gives its period to about 1e-9.
     """
     time, signal = np.asarray(time, float), np.asarray(signal, float)
     if time.ndim != 1 or time.shape != signal.shape:
@@ -100,7 +102,9 @@ def period(time, signal):
         times = _crossings(time, direction * signal)
         if len(times) >= 2:
             return float((times[-1] - times[0]) / (len(times) - 1))
-    raise ValueError("signal must cross zero at least twice in one direction: give a longer run, or take its mean away")
+    raise ValueError(
+        "signal must cross zero at least twice in one direction: give a longer run, or take its mean away"
+    )
 
 
 def _crossings(time, signal, points=8):
@@ -120,9 +124,9 @@ def _crossings(time, signal, points=8):
 def cpu_seconds(call, repeats=5, prepare=None, least=2e-3):
     """Processor seconds of one call, the median of `repeats` measurements.
 
-    prepare(): makes the call's argument, outside the clock; without it the call takes none. A call shorter than
-    `least` seconds is repeated within each measurement (each with an argument of its own), since some systems'
-    clocks tick coarsely. Processor time rather than wall time: a busy machine disturbs it less.
+    prepare(): makes the call's argument, outside the clock; without it the call takes none. A call shorter
+    than `least` seconds is repeated within each measurement (each with an argument of its own), since some
+    systems' clocks tick coarsely. Processor time rather than wall time: a busy machine disturbs it less.
     """
     if repeats < 1:
         raise ValueError(f"repeats must be at least 1; got {repeats}")
@@ -142,8 +146,8 @@ def _timed(call, prepare, number):
 def front(points):
     """The best of many (seconds, error): those that no other beats in both, by rising time and falling error.
 
-    points: (k, 2); returns (m, 2). Errors that are not finite are left out, and so are zeros, which have no logarithm:
-    give a floor instead.
+    points: (k, 2); returns (m, 2). Errors that are not finite are left out, and so are zeros, which have no
+    logarithm: give a floor instead.
     """
     points = np.array([p for p in points if np.isfinite(p[1]) and p[1] > 0]).reshape(-1, 2)
     points = points[np.lexsort((points[:, 1], points[:, 0]))]
@@ -152,7 +156,8 @@ def front(points):
 
 
 def time_at(curve, error):
-    """Seconds that a front needs for an error, by interpolation in both logarithms; infinity where it doesn't get there.
+    """Seconds that a front needs for an error, by interpolation in both logarithms; infinity where it doesn't
+    get there.
 
     An error looser than all of the front costs what the front's quickest point costs.
     """

@@ -10,10 +10,21 @@ from .free_motion import free_fall, planar_flight, projectile_drag, spring, tumb
 from .orbits import two_body_orbit
 from .tops import heavy_top, torque_free_top
 
-CASES = Catalogue("case", {
-    function.__name__: function
-    for function in (free_fall, projectile_drag, spring, planar_flight, tumbling_box, torque_free_top, heavy_top,
-                     two_body_orbit)
-})
+CASES = Catalogue(
+    "case",
+    {
+        function.__name__: function
+        for function in (
+            free_fall,
+            projectile_drag,
+            spring,
+            planar_flight,
+            tumbling_box,
+            torque_free_top,
+            heavy_top,
+            two_body_orbit,
+        )
+    },
+)
 
 __all__ = ["CASES", "Case", "Motion"]

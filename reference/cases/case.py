@@ -14,7 +14,8 @@ from ..scene import Scene
 
 
 class Motion(NamedTuple):
-    """The exact motion at the times (T,): arrays shaped as a Trajectory's, n bodies in d dimensions, world frame.
+    """The exact motion at the times (T,): arrays shaped as a Trajectory's, n bodies in d dimensions, world
+    frame.
 
     position, velocity (T, n, d), m and m/s; orientation (T, n, 4), or (T, n) in the plane, rad;
     angular_velocity (T, n, 3), or (T, n), rad/s. What doesn't turn has the identity, and 0.
@@ -30,8 +31,8 @@ class Motion(NamedTuple):
 class Case:
     """A scene with a known answer.
 
-    ``exact(t)`` gives the Motion at the times t (T,). ``measure(run, motion)`` turns the gap between a run and the
-    exact motion at the run's own times into one number in ``unit``; 0 is perfect.
+    ``exact(t)`` gives the Motion at the times t (T,). ``measure(run, motion)`` turns the gap between a run
+    and the exact motion at the run's own times into one number in ``unit``; 0 is perfect.
     """
 
     name: str
@@ -82,7 +83,7 @@ def attitude_error(run, motion):
 
 
 def flight_error(scale):
-    """A measure: the larger of the relative position error and the attitude error (rad), both plain numbers."""
+    """A measure: the larger of the relative position error and the attitude error in rad."""
     place = position_error(scale)
     return lambda run, motion: max(place(run, motion), attitude_error(run, motion))
 

@@ -2,7 +2,8 @@
 
 The answers are the textbook solutions of m ẍ = m g − c ẋ and of the damped oscillator.
 
-Slides S4, S9; lectures/02_equation_of_motion.md. Source: Landau & Lifshitz, Mechanics (1976), sections 25 and 13.
+Slides S4, S9; lectures/02_equation_of_motion.md. Source: Landau & Lifshitz, Mechanics (1976), sections 25 and
+13.
 """
 
 import numpy as np
@@ -25,7 +26,7 @@ def _columns(time):
 
 
 def free_fall(dimension=3, duration=2.0):
-    """A point mass thrown and left alone: x = x₀ + v₀ t + ½ g t². Error: distance over the depth ½ g T² fallen."""
+    """A point mass, thrown: x = x₀ + v₀ t + ½ g t². Error: distance over the depth ½ g T² fallen."""
     positive(duration=duration)
     g = _gravity(checked_dimension(dimension))
     start, speed = np.array([1.0, -2.0, 3.0])[-dimension:], np.array([2.0, 1.0, 4.0])[-dimension:]
@@ -38,9 +39,14 @@ def free_fall(dimension=3, duration=2.0):
         return Motion(start + speed * t + g * t**2 / 2, turned[0], speed + g * t, turned[1])
 
     return Case(
-        "free_fall", scene, duration, exact, position_error(GRAVITY * duration**2 / 2), "relative to the fall",
+        "free_fall",
+        scene,
+        duration,
+        exact,
+        position_error(GRAVITY * duration**2 / 2),
+        "relative to the fall",
         "Galilei; Landau & Lifshitz, Mechanics",
-        "Nothing, for order 2 and above: they are exact. Both symplectic Eulers are off by ½ g T dt, on opposite sides.",
+        "Nothing, for order 2 and above. The symplectic Eulers are off by ½ g T dt, on opposite sides.",
     )
 
 
@@ -63,23 +69,32 @@ def projectile_drag(dimension=3, drag=0.8, mass=2.0, duration=2.0):
         return Motion(position, turned[0], speed + (final - speed) * gone, turned[1])
 
     return Case(
-        "projectile_drag", scene, duration, exact, position_error(np.linalg.norm(speed) * duration),
-        "relative to |v₀| T", "Landau & Lifshitz, Mechanics, section 25",
-        "The force depends on the velocity, so a splitting into drift and kick must take care to stay of order 2.",
+        "projectile_drag",
+        scene,
+        duration,
+        exact,
+        position_error(np.linalg.norm(speed) * duration),
+        "relative to |v₀| T",
+        "Landau & Lifshitz, Mechanics, section 25",
+        "The force depends on the velocity, so a splitting must take care to stay of order 2.",
     )
 
 
 def spring(dimension=3, stiffness=40.0, damping=0.0, length=1.0, stretch=0.25, duration=4.0):
-    """Two masses on one spring, drifting: the distance swings with ω² = k/μ − γ², μ the reduced mass, γ = c/2μ.
+    """Two masses on one spring, drifting: the distance swings with ω² = k/μ − γ², μ the reduced mass, γ =
+    c/2μ.
 
-    stiffness: N/m; damping: N s/m, below critical; length and stretch at the start: m. Error: distance over stretch.
+    stiffness: N/m; damping: N s/m, below critical; length and stretch at the start: m. Error: distance over
+    stretch.
     """
     positive(stiffness=stiffness, length=length, stretch=stretch, duration=duration)
-    masses, drift = np.array([1.0, 3.0]), np.array([0.3, -0.2, 0.1])[-checked_dimension(dimension):]
+    masses, drift = np.array([1.0, 3.0]), np.array([0.3, -0.2, 0.1])[-checked_dimension(dimension) :]
     μ = masses.prod() / masses.sum()
     γ = damping / (2 * μ)
     if not 0 <= γ**2 < stiffness / μ:
-        raise ValueError(f"damping must be at least 0 and below 2 √(k μ) = {2 * np.sqrt(stiffness * μ):g}, but is {damping!r}")
+        raise ValueError(
+            f"damping must be from 0 to below 2 √(k μ) = {2 * np.sqrt(stiffness * μ):g}, but is {damping!r}"
+        )
     ω = np.sqrt(stiffness / μ - γ**2)
     axis = np.array([2.0, 1.0, 2.0])[-dimension:]
     axis /= np.linalg.norm(axis)
@@ -97,14 +112,20 @@ def spring(dimension=3, stiffness=40.0, damping=0.0, length=1.0, stretch=0.25, d
         return Motion(drift * t + share * (length + s), turned[0], drift + share * rate, turned[1])
 
     return Case(
-        "spring", scene, duration, exact, position_error(stretch), "relative to the first stretch",
+        "spring",
+        scene,
+        duration,
+        exact,
+        position_error(stretch),
+        "relative to the first stretch",
         "Landau & Lifshitz, Mechanics, sections 13 and 25",
-        "Phase: the error grows with time. Explicit Euler gains energy in every swing, implicit Euler loses it.",
+        "Phase: the error grows with time. Explicit Euler gains energy in every swing.",
     )
 
 
 def planar_flight(spin=7.0, duration=2.0):
-    """A pentagon thrown spinning, in the plane: its centre on the parabola, its angle φ₀ + ω t. Error: see flight_error.
+    """A pentagon thrown spinning, in the plane: its centre on the parabola, its angle φ₀ + ω t. Error: see
+    flight_error.
 
     spin: rad/s. The position error is relative to the depth ½ g T² fallen.
     """
@@ -120,7 +141,12 @@ def planar_flight(spin=7.0, duration=2.0):
         return Motion(start + speed * t + g * t**2 / 2, turn, speed + g * t, np.full_like(turn, spin))
 
     return Case(
-        "planar_flight", scene, duration, exact, flight_error(GRAVITY * duration**2 / 2), "relative, and rad",
+        "planar_flight",
+        scene,
+        duration,
+        exact,
+        flight_error(GRAVITY * duration**2 / 2),
+        "relative, and rad",
         "Landau & Lifshitz, Mechanics",
         "Nothing but speed: a step is a dozen multiplications, so what a call costs decides.",
     )
@@ -134,17 +160,31 @@ def tumbling_box(duration=2.0):
     attitude = np.array([0.8, 0.4, -0.2, 0.4])
     top = FreeTop(np.diag(box.inertia(mass)), rates, attitude)
     scene = Scene(gravity=g)
-    scene.add(box, mass=mass, position=start, velocity=speed, orientation=attitude,
-              angular_velocity=top.angular_velocity(0.0))
+    scene.add(
+        box,
+        mass=mass,
+        position=start,
+        velocity=speed,
+        orientation=attitude,
+        angular_velocity=top.angular_velocity(0.0),
+    )
 
     def exact(time):
         t = _columns(time)
         return Motion(
-            start + speed * t + g * t**2 / 2, top.attitude(time)[..., None, :],
-            speed + g * t, top.angular_velocity(time)[..., None, :])
+            start + speed * t + g * t**2 / 2,
+            top.attitude(time)[..., None, :],
+            speed + g * t,
+            top.angular_velocity(time)[..., None, :],
+        )
 
     return Case(
-        "tumbling_box", scene, duration, exact, flight_error(GRAVITY * duration**2 / 2), "relative, and rad",
+        "tumbling_box",
+        scene,
+        duration,
+        exact,
+        flight_error(GRAVITY * duration**2 / 2),
+        "relative, and rad",
         "Landau & Lifshitz, Mechanics, section 37",
         "The gyroscopic term: translation is exact at once, rotation is not.",
     )

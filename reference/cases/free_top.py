@@ -1,18 +1,19 @@
 """The exact motion of a body that no torque acts on, by Jacobi's elliptic functions and Carlson's integrals.
 
-**Rates.** In the body's principal frame I ω̇ = I ω × ω keeps the energy E and the momentum L. One axis d is never left
-by the spin: the axis of largest moment if L² > 2 E I_mid, of smallest if L² < 2 E I_mid. With c the other outer axis
-and s the middle one: ω_c = C cn u, ω_s = S sn u, ω_d = D dn u, with u = p t + u₀.
+**Rates.** In the body's principal frame I ω̇ = I ω × ω keeps the energy E and the momentum L. One axis d is
+never left by the spin: the axis of largest moment if L² > 2 E I_mid, of smallest if L² < 2 E I_mid. With c
+the other outer axis and s the middle one: ω_c = C cn u, ω_s = S sn u, ω_d = D dn u, with u = p t + u₀.
 
-**Attitude.** Angular momentum is fixed in the world. Seen from it, the axis d has the Euler angles (z, x, z) φ, θ, ψ:
-the last two follow from ℓ = Iω/L, which the body sees turn: ℓ = (sin θ sin ψ, sin θ cos ψ, cos θ). The first obeys
+**Attitude.** Angular momentum is fixed in the world. Seen from it, the axis d has the Euler angles (z, x, z)
+φ, θ, ψ: the last two follow from ℓ = Iω/L, which the body sees turn: ℓ = (sin θ sin ψ, sin θ cos ψ, cos θ).
+The first obeys
 
     φ̇ = L (I_c ω_c² + I_s ω_s²) / (I_c² ω_c² + I_s² ω_s²) = L (α + β / (1 − n sn² u)),
 
 the derivative of an elliptic integral of the third kind, Π(n; am u | m).
 
-Slides S4, S9; lectures/02_equation_of_motion.md. Source: Landau & Lifshitz, Mechanics (1976), section 37; van Zon &
-Schofield, J. Comput. Phys. 225 (2007) 145; DLMF 19.25 for Π by Carlson's forms.
+Slides S4, S9; lectures/02_equation_of_motion.md. Source: Landau & Lifshitz, Mechanics (1976), section 37; van
+Zon & Schofield, J. Comput. Phys. 225 (2007) 145; DLMF 19.25 for Π by Carlson's forms.
 """
 
 import numpy as np
@@ -23,7 +24,7 @@ from ..rotation import conjugate, multiply, over_arrays, rotate
 
 
 def elliptic_pi(n, φ, m):
-    """Legendre's incomplete integral of the third kind Π(n; φ | m) = ∫ dθ / ((1 − n sin²θ) √(1 − m sin²θ)), n < 1."""
+    """Legendre's integral of the third kind Π(n; φ | m) = ∫ dθ / ((1 − n sin²θ) √(1 − m sin²θ)), n < 1."""
     turns = np.round(φ / np.pi)  # whole half turns are complete integrals; the rest lies within ±π/2
     rest = φ - np.pi * turns
     return turns * 2 * _carlson(n, np.pi / 2, m) + _carlson(n, rest, m)
@@ -52,8 +53,10 @@ class FreeTop:
         across, along = E2 * I[d] - L2, L2 - E2 * I[c]  # both have the sign of I_d − I_c
         if min(I) <= 0 or len(set(I)) < 3 or across * along <= 0 or L2 == E2 * I[mid]:
             raise ValueError(
-                "inertia and rates must be of a top that tumbles: three different positive moments, a spin that is "
-                f"neither about a principal axis nor on the separatrix; but they are {I.tolist()} and {ω.tolist()}")
+                "inertia and rates must be of a top that tumbles, with three different positive moments and "
+                "a spin neither about a principal axis nor on the separatrix, but they are "
+                f"{I.tolist()} and {ω.tolist()}"
+            )
         C, S = np.sqrt(across / (I[c] * (I[d] - I[c]))), np.sqrt(across / (I[s] * (I[d] - I[s])))
         D = np.copysign(np.sqrt(along / (I[d] * (I[d] - I[c]))), ω[d])
         self.m1 = (I[d] - I[c]) * (L2 - E2 * I[s]) / ((I[d] - I[s]) * along)  # 1 − m, without cancellation
@@ -91,7 +94,7 @@ class FreeTop:
         return over_arrays(rotate)(self.attitude(time), self.rates(time))
 
     def _euler(self, time):
-        """The attitude seen from the angular momentum (its direction the third axis), third body axis d: (…, 4)."""
+        """The attitude (…, 4) in a frame whose third axis is the angular momentum; third body axis d."""
         time = np.asarray(time, dtype=float)
         ℓ = self.I * self.rates(time) / self.L
         x, y, z = (ℓ[..., (self.d + k) % 3] for k in (1, 2, 3))

@@ -16,46 +16,57 @@ from .free_top import FreeTop
 def torque_free_top(inertia=(1.0, 2.0, 3.0), rates=(0.01, 1.0, 0.0), duration=42.0):
     """A body spun about almost its middle axis: it turns over, and back (Dzhanibekov). Error: attitude, rad.
 
-    inertia: principal moments (3,), kg m²; rates: angular velocity at the start, body frame, rad/s. With the values
-    given the body-frame rates return after 41.50921953 s; ``case.exact.period`` is that time.
+    inertia: principal moments (3,), kg m²; rates: angular velocity at the start, body frame, rad/s. With the
+    values given the body-frame rates return after 41.50921953 s; ``case.exact.period`` is that time.
     """
     positive(duration=duration)
     top = FreeTop(inertia, rates)
     scene = Scene(gravity=(0, 0, 0))
     scene.add(Sphere(0.5), mass=1.0, inertia=inertia, angular_velocity=rates)
     return Case(
-        "torque_free_top", scene, duration, _Turning(top), attitude_error, "rad",
+        "torque_free_top",
+        scene,
+        duration,
+        _Turning(top),
+        attitude_error,
+        "rad",
         "Landau & Lifshitz, Mechanics, section 37; period 4 K(m) / p",
-        "Spin about the middle axis is unstable: an early error is enlarged hundreds of times before the first flip.",
+        "Spin about the middle axis is unstable: an early error grows a hundredfold before the first flip.",
     )
 
 
 class _Turning:
-    """A Motion that only turns, from an object with .attitude(t) and .angular_velocity(t); passes on ``period``."""
+    """The Motion of a ``top`` that only turns: it has attitude(t), angular_velocity(t) and a period."""
 
     def __init__(self, top):
         self.top, self.period = top, top.period
 
     def __call__(self, time):
         still = np.zeros((*np.shape(time), 1, 3))
-        return Motion(still, self.top.attitude(time)[..., None, :], still, self.top.angular_velocity(time)[..., None, :])
+        return Motion(
+            still, self.top.attitude(time)[..., None, :], still, self.top.angular_velocity(time)[..., None, :]
+        )
 
 
 def heavy_top(tilt=0.6, spin=30.0, duration=2.0, fast=False):
     """A symmetric top on a fixed tip, precessing steadily at a tilt from the vertical. Error: attitude, rad.
 
-    tilt: θ, rad; spin: ω₃ about the top's axis, rad/s; fast: the faster of the two steady precessions Ω, the roots of
+    tilt: θ, rad; spin: ω₃ about the top's axis, rad/s; fast: the faster of the two steady precessions Ω, the
+    roots of
 
         I₁ cos θ Ω² − I₃ ω₃ Ω + m g l = 0,      I₁, I₃ about the tip, l from the tip to the centre of mass.
 
-    **How it is written without a joint.** About a fixed point, too, I ω̇ + ω × I ω = torque, with the inertia about
-    that point. So the tip is the body's reference point, at rest at the origin, with the inertia about the tip. The
-    torque of the weight is that of two springs of no length at rest, stiffness k, from the points ±l e₃ of the body to
-    the points ∓H ẑ of the world. Each pulls by k times the distance between its ends:
+    **How it is written without a joint.** About a fixed point, too, I ω̇ + ω × I ω = torque, with the inertia
+    about that point. So the tip is the body's reference point, at rest at the origin, with the inertia about
+    the tip. The torque of the weight is that of two springs of no length at rest, stiffness k, from the
+    points ±l e₃ of the body to the points ∓H ẑ of the world. Each pulls by k times the distance between its
+    ends:
 
-        force  k (−H ẑ − l e₃) + k (H ẑ + l e₃) = 0,      torque  2 k l e₃ × (−H ẑ) = l e₃ × (−m g ẑ)  if 2 k H = m g.
+        force  k (−H ẑ − l e₃) + k (H ẑ + l e₃) = 0,      torque  2 k l e₃ × (−H ẑ) = l e₃ × (−m g ẑ)  if 2 k
+        H = m g.
 
-    Their energy is m g l cos θ and a constant. There is no gravity in the scene, and nothing that moves the tip.
+    Their energy is m g l cos θ and a constant. There is no gravity in the scene, and nothing that moves the
+    tip.
     """
     positive(spin=spin, duration=duration)
     if not 0 < tilt < np.pi / 2:
@@ -64,16 +75,37 @@ def heavy_top(tilt=0.6, spin=30.0, duration=2.0, fast=False):
     root = (along * spin) ** 2 - 4 * across * np.cos(tilt) * weight * arm
     if root < 0:
         least = np.sqrt(4 * across * np.cos(tilt) * weight * arm) / along
-        raise ValueError(f"spin must be at least {least:.6g} rad/s for steady precession at this tilt, but is {spin!r}")
-    top = SteadyPrecession(tilt, spin, 2 * weight * arm / (along * spin + (-1 if fast else 1) * np.sqrt(root)))
+        raise ValueError(
+            f"spin must be at least {least:.6g} rad/s for steady precession at this tilt, but is {spin!r}"
+        )
+    top = SteadyPrecession(
+        tilt, spin, 2 * weight * arm / (along * spin + (-1 if fast else 1) * np.sqrt(root))
+    )
     axis = np.array([0.0, -np.sin(tilt), np.cos(tilt)])  # e₃ at the start
     scene = Scene(gravity=(0, 0, 0))
-    body = scene.add(Sphere(0.2), mass=1.0, inertia=(across, across, along), orientation=top.attitude(0.0),
-                     angular_velocity=top.angular_velocity(0.0))
+    body = scene.add(
+        Sphere(0.2),
+        mass=1.0,
+        inertia=(across, across, along),
+        orientation=top.attitude(0.0),
+        angular_velocity=top.angular_velocity(0.0),
+    )
     for side in (1.0, -1.0):
-        scene.spring(body, None, weight / (2 * height), length=0, point_a=side * arm * axis, point_b=(0, 0, -side * height))
+        scene.spring(
+            body,
+            None,
+            weight / (2 * height),
+            length=0,
+            point_a=side * arm * axis,
+            point_b=(0, 0, -side * height),
+        )
     return Case(
-        "heavy_top", scene, duration, _Turning(top), attitude_error, "rad",
+        "heavy_top",
+        scene,
+        duration,
+        _Turning(top),
+        attitude_error,
+        "rad",
         "Goldstein, Classical Mechanics, section 5-7: steady precession",
         "Spin and precession differ many times in speed, and any error in the rates starts a nodding.",
     )
@@ -90,7 +122,9 @@ class SteadyPrecession:
     def attitude(self, time):
         """Quaternions (…, 4), body → world, at the times (…,)."""
         time, product = np.asarray(time, dtype=float), over_arrays(multiply)
-        return product(product(_turn(2, self.precession * time), _turn(0, self.tilt)), _turn(2, self.own * time))
+        return product(
+            product(_turn(2, self.precession * time), _turn(0, self.tilt)), _turn(2, self.own * time)
+        )
 
     def angular_velocity(self, time):
         """Ω ẑ + ψ̇ e₃ in the world's frame, (…, 3), rad/s."""

@@ -23,8 +23,9 @@ from ..trajectory import BodyState, ContactHistory, Trajectory
 class Engine:
     """An engine: ``load(scene, dt, **settings)`` gives a Peer that steps the scene in it.
 
-    name: of the Python package; settings: name → (default, what is allowed: a tuple of words, or the smallest whole
-    number); install: a sentence; adapter: the Peer's class; recorded_in: the version this adapter was written for.
+    name: of the Python package; settings: name → (default, what is allowed: a tuple of words, or the smallest
+    whole number); install: a sentence; adapter: the Peer's class; recorded_in: the version this adapter was
+    written for.
     """
 
     name: str
@@ -44,24 +45,30 @@ class Engine:
         return metadata.version(self.name) if self.available else None
 
     def load(self, scene, dt, **settings):
-        """The scene in this engine, at its start: a Peer. Raises Unsupported for what the engine can't express."""
+        """The scene in this engine, at its start: a Peer. Raises Unsupported for what the engine can't do."""
         chosen = self._checked(settings)
         self._check_scene(scene)
         if not self.available:
             raise Unsupported(
-                f"{self.name} is not installed for this Python: {self.install}. Where it can't be, its recordings serve: "
-                "see reference.peers.recorded")
+                f"{self.name} is not installed for this Python: {self.install}. Where it can't be, "
+                "recordings of it serve: see reference.peers.recorded"
+            )
         return self.adapter(self, scene, inputs.number("dt", dt, above=0), chosen)
 
     def _check_scene(self, scene):
         if scene.dimension != self.dimension:
-            place, other = {2: ("the plane", "pybullet"), 3: ("space", "pymunk")}[self.dimension]
-            raise Unsupported(f"{self.name} works in {place} here, but the scene has {scene.dimension} dimensions: use {other}")
+            lacks = "no third dimension" if self.dimension == 2 else "no planar bodies"
+            other = "pybullet" if self.dimension == 2 else "pymunk"
+            raise Unsupported(
+                f"{self.name} has {lacks}, but this scene has {scene.dimension} dimensions: use {other}"
+            )
         meeting = next(iter(scene.colliding_pairs()), None)
         if meeting:
             raise Unsupported(
-                f"this adapter passes no contact on to {self.name}, but bodies {meeting[0]} and {meeting[1]} could touch: "
-                f"put them in one group, or call scene.pair({meeting[0]}, {meeting[1]}, collide=False)")
+                f"this adapter passes no contact on to {self.name}, but bodies {meeting[0]} and {meeting[1]} "
+                "could touch: put them in one group, or call "
+                f"scene.pair({meeting[0]}, {meeting[1]}, collide=False)"
+            )
 
     def _checked(self, settings):
         valid = "; ".join(f"{name}: {_allowed(allowed)}" for name, (_, allowed) in self.settings.items())
@@ -71,7 +78,9 @@ class Engine:
                 raise ValueError(f"{name!r} is no setting of {self.name}, which has {valid}")
             allowed = self.settings[name][1]
             words = isinstance(allowed, tuple)
-            chosen[name] = inputs.choice(name, value, allowed) if words else inputs.whole(name, value, least=allowed)
+            chosen[name] = (
+                inputs.choice(name, value, allowed) if words else inputs.whole(name, value, least=allowed)
+            )
         return chosen
 
 
@@ -82,8 +91,9 @@ def _allowed(allowed):
 class Peer:
     """A scene inside an engine, being stepped. Use it in a ``with`` statement, or call ``close()``.
 
-    ``advance(duration)`` steps and reads nothing that the forces don't need, so its time is the engine's; ``state``
-    reads all bodies; ``run(duration)`` leaves a Trajectory. moving: the numbers of the bodies that are not static.
+    ``advance(duration)`` steps and reads nothing that the forces don't need, so its time is the engine's;
+    ``state`` reads all bodies; ``run(duration)`` leaves a Trajectory. moving: the numbers of the bodies that
+    are not static.
     """
 
     def __init__(self, engine, scene, dt, settings):
@@ -102,7 +112,9 @@ class Peer:
     def state(self):
         """All bodies now: a ``BodyState``."""
         start = self.bodies  # what is static stays where the scene has put it
-        arrays = [a.copy() for a in (start.position, start.orientation, start.velocity, start.angular_velocity)]
+        arrays = [
+            a.copy() for a in (start.position, start.orientation, start.velocity, start.angular_velocity)
+        ]
         for i, body in zip(self.moving, self.read(), strict=True):
             for array, value in zip(arrays, body, strict=True):
                 array[i] = value
@@ -113,7 +125,7 @@ class Peer:
         self._take(count_steps(duration, self.dt))
 
     def run(self, duration, record_every=1):
-        """Step for ``duration``, recording each so-manieth step and the last: a Trajectory."""
+        """Step for ``duration``, recording every so many steps and at the end: a Trajectory."""
         steps, every = count_steps(duration, self.dt), inputs.whole("record_every", record_every, least=1)
         done = np.append(np.arange(0, steps, every), steps)
         states = [self.state]
@@ -125,11 +137,18 @@ class Peer:
                 break
         kept, whole = len(states), len(states) == len(done)
         time = states[0].time + done[:kept] * duration / steps
-        reason = "" if whole else f"{self.engine.name}'s state stopped being finite after t = {time[-1]:.6g} s; try a smaller dt"
+        stopped = f"the state stopped being finite after t = {time[-1]:.6g} s; try a smaller dt"
         return Trajectory(
-            self.bodies, time, *(np.array(history) for history in zip(*map(_arrays, states), strict=True)),
-            contacts=ContactHistory.empty(kept, self.scene.dimension), status="ok" if whole else "diverged", reason=reason,
-            residual=np.zeros(kept), iterations=np.zeros(kept, dtype=int), settings=dict(self.settings))
+            self.bodies,
+            time,
+            *(np.array(history) for history in zip(*map(_arrays, states), strict=True)),
+            contacts=ContactHistory.empty(kept, self.scene.dimension),
+            status="ok" if whole else "diverged",
+            reason="" if whole else stopped,
+            residual=np.zeros(kept),
+            iterations=np.zeros(kept, dtype=int),
+            settings=dict(self.settings),
+        )
 
     def _take(self, steps):
         self.step(steps)

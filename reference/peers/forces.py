@@ -1,7 +1,8 @@
 """The forces that an engine has no word for, computed from the engine's own state and handed to it each step.
 
-Written apart from `reference/forces.py`, in plain numbers, so that an engine stays a second opinion on our own forces:
-springs and dampers, drag, gravitation between bodies, the user's functions. Gravity is left to the engine.
+Written apart from `reference/forces.py`, in plain numbers, so that an engine stays a second opinion on our
+own forces: springs and dampers, drag, gravitation between bodies, the user's functions. Gravity is left to
+the engine.
 
 Slides S4, S18; lectures/02_equation_of_motion.md.
 """
@@ -21,14 +22,17 @@ _cross, _rotate, _rotate_back = plain(cross), plain(rotate), plain(rotate_back)
 class Forces:
     """``forces(t, x, q, v, ω)``: lists with one entry a body → (force, torque), lists with one entry a body.
 
-    x, v, force: d numbers a body. q: four numbers, or an angle. ω, torque: three numbers, or one. World frame, SI units.
-    springs, drags: those of the scene that are to be computed here; gravitation and user's forces always are.
+    x, v, force: d numbers a body. q: four numbers, or an angle. ω, torque: three numbers, or one. World
+    frame, SI units. springs, drags: those of the scene that are to be computed here; gravitation and user's
+    forces always are.
     """
 
     def __init__(self, scene, springs, drags):
         self.dimension, self.bodies = scene.dimension, scene.bodies
         self.turns = [not (body.static or isinstance(body.shape, Point)) for body in scene.bodies]
-        self.springs = [(s, self._fixed_point(s.a, s.point_a), self._fixed_point(s.b, s.point_b)) for s in springs]
+        self.springs = [
+            (s, self._fixed_point(s.a, s.point_a), self._fixed_point(s.b, s.point_b)) for s in springs
+        ]
         self.drags, self.G, self.user_forces = drags, scene.gravitation, scene.user_forces
         self.sources = [i for i, body in enumerate(scene.bodies) if body.mass > 0]
 
@@ -42,23 +46,27 @@ class Forces:
         for spring, end_a, end_b in self.springs:
             self._add_spring(spring, end_a, end_b, (x, q, v, ω), force, torque)
         for i, (linear, angular) in self.drags.items():
-            force[i] = [f - linear * s for f, s in zip(force[i], v[i])]
+            force[i] = [f - linear * s for f, s in zip(force[i], v[i], strict=True)]
             torque[i] = _plus(torque[i], ω[i], -angular)
         if self.G:
             self._add_gravitation(x, force)
         if self.user_forces:
-            self._add_user_forces(BodyState(t, np.array(x), np.array(q), np.array(v), np.array(ω)), force, torque)
+            self._add_user_forces(
+                BodyState(t, np.array(x), np.array(q), np.array(v), np.array(ω)), force, torque
+            )
         return force, torque
 
     def _fixed_point(self, i, point):
-        """The body's number and the point in its own frame, as a list; where it doesn't turn, just the offset."""
+        """The body's number and the point in its own frame; where it doesn't turn, just the offset."""
         if i is None:
             return None, list(point)
         body = self.bodies[i]
         arm = (point - body.position).tolist()
         if not self.turns[i]:
             return i, arm
-        return i, list(_rotate_back(body.orientation, arm)) if self.dimension == 3 else _turned(-body.orientation, arm)
+        return i, list(_rotate_back(body.orientation, arm)) if self.dimension == 3 else _turned(
+            -body.orientation, arm
+        )
 
     def _end(self, end, state):
         """Arm from the centre, position and velocity (lists of d) of a spring's end."""
@@ -80,7 +88,7 @@ class Forces:
         distance = math.sqrt(sum(c * c for c in span))
         if distance == 0:
             return
-        rate = sum(c * (b - a) for c, a, b in zip(span, speed_a, speed_b)) / distance
+        rate = sum(c * (b - a) for c, a, b in zip(span, speed_a, speed_b, strict=True)) / distance
         tension = (spring.stiffness * (distance - spring.length) + spring.damping * rate) / distance
         for i, arm, sign in ((end_a[0], arm_a, tension), (end_b[0], arm_b, -tension)):
             if i is not None:
@@ -109,7 +117,8 @@ class Forces:
             if f.shape != state.position.shape or τ.shape != state.angular_velocity.shape:
                 raise ValueError(
                     f"f(t, state) must return a force of shape {state.position.shape} and a torque of shape "
-                    f"{state.angular_velocity.shape}, but returned shapes {f.shape} and {τ.shape}")
+                    f"{state.angular_velocity.shape}, but returned shapes {f.shape} and {τ.shape}"
+                )
             for i in range(len(force)):
                 force[i], torque[i] = _plus(force[i], f[i].tolist()), _plus(torque[i], τ[i].tolist())
 
@@ -118,7 +127,7 @@ def _plus(a, b, scale=1.0):
     """a + scale · b, of lists or of numbers."""
     if isinstance(a, float):
         return a + scale * b
-    return [p + scale * r for p, r in zip(a, b)]
+    return [p + scale * r for p, r in zip(a, b, strict=True)]
 
 
 def _turned(angle, r):

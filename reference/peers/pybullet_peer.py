@@ -6,34 +6,35 @@
 
 It has two kinds of body, which differ in the gyroscopic term (setting ``body``; s = Rᵀω in the body's frame):
 
-- ``"multibody"``, what createMultiBody gives by default (the base of an articulated tree): taken explicitly, at the
-  start of the step, s ← s + h I⁻¹ (τ − s × I s). So it gains energy. It also limits each component of v and ω to 100
-  unless told otherwise: this adapter raises that limit to 1e10.
+- ``"multibody"``, what createMultiBody gives by default (the base of an articulated tree): taken explicitly,
+  at the start of the step, s ← s + h I⁻¹ (τ − s × I s). So it gains energy. It also limits each component of
+  v and ω to 100 unless told otherwise: this adapter raises that limit to 1e10.
 - ``"rigid"`` (``useMaximalCoordinates=1``): taken implicitly, by one step of Newton's method from s on
   I (s′ − s) + h s′ × I s′ = 0 (Catto, GDC 2015), to which h I⁻¹ τ is added. So it loses energy.
 
-**Rotation** is by the exponential map of the *new* ω, for both, up to |ω| h = π/4; past that the angle is cut off,
-silently and wrongly. The adapter refuses a scene that starts there.
+**Rotation** is by the exponential map of the *new* ω, for both, up to |ω| h = π/4; past that the angle is cut
+off, silently and wrongly. The adapter refuses a scene that starts there.
 
-**Damping** is not 0 by default: a multibody gets the extra force −m v d (1 + |v|), and likewise for rotation, with
-d = .04, which at 3 m/s takes 16 % of the speed a second; a rigid body made this way reports .04 but gets none.
-Both are set to 0 here. Sleeping is off by default, and switched off again.
+**Damping** is not 0 by default: a multibody gets the extra force −m v d (1 + |v|), and likewise for rotation,
+with d = .04, which at 3 m/s takes 16 % of the speed a second; a rigid body made this way reports .04 but gets
+none. Both are set to 0 here. Sleeping is off by default, and switched off again.
 
-**Setting up.** ``changeDynamics(mass=…)`` alone puts the shape's inertia back, and ``localInertiaDiagonal`` alone makes
-a rigid body's reported mass 0: mass and inertia are given together, damping in a call of its own. A rigid body's
-inverse inertia *in the world* is stale until it has once been stepped: the first torque would meet the inertia of its
-shape. So each client takes one step at rest, without gravity, before bodies are put in place and set in motion.
-Inertia is diagonal, so the engine's frame of a body is the one of its principal axes.
+**Setting up.** ``changeDynamics(mass=…)`` alone puts the shape's inertia back, and ``localInertiaDiagonal``
+alone makes a rigid body's reported mass 0: mass and inertia are given together, damping in a call of its own.
+A rigid body's inverse inertia *in the world* is stale until it has once been stepped: the first torque would
+meet the inertia of its shape. So each client takes one step at rest, without gravity, before bodies are put
+in place and set in motion. Inertia is diagonal, so the engine's frame of a body is the one of its principal
+axes.
 
-**Forces** other than gravity are computed from the state at the start of each step and applied at the centre of mass
-(``applyExternalForce`` and ``applyExternalTorque``, world frame): what an explicit force in velocity-first Euler means.
-The engine forgets them after the step. Without such forces ``substeps`` is the engine's own numSubSteps, a loop in C++;
-with them, each substep is a call, and its forces are new.
+**Forces** other than gravity are computed from the state at the start of each step and applied at the centre
+of mass (``applyExternalForce`` and ``applyExternalTorque``, world frame): what an explicit force in
+velocity-first Euler means. The engine forgets them after the step. Without such forces ``substeps`` is the
+engine's own numSubSteps, a loop in C++; with them, each substep is a call, and its forces are new.
 
-How it was found: one step from given numbers agrees with the formulas above to 4e-16, with and without torque, for both
-kinds of body and several spins, and does not agree with the other kind's formula (5e-4); 5,000 steps agree to 1e-11.
-The cut-off, limits and defaults were seen in single steps; Bullet's public source (btMultiBody, btRigidBody,
-btTransformUtil) says the same. The tests repeat it.
+How it was found: one step from given numbers agrees with the formulas above to 4e-16, with and without
+torque, for both kinds of body and several spins, and does not agree with the other kind's formula (5e-4);
+5,000 steps agree to 1e-11. The cut-off, limits and defaults were seen in single steps; Bullet's public source
+(btMultiBody, btRigidBody, btTransformUtil) says the same. The tests repeat it.
 
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
@@ -77,16 +78,20 @@ class PybulletPeer(Peer):
             turn = np.linalg.norm(self.scene.bodies[i].angular_velocity) * self.dt / self.substeps
             if turn > math.pi / 4:
                 raise Unsupported(
-                    f"pybullet cuts a turn of more than π/4 a step off, but body {i} starts with {turn:.4g} rad a step: "
-                    f"dt must be at most {self.dt * math.pi / 4 / turn:.4g} s")
+                    f"pybullet can turn a body by π/4 a step at most, but body {i} starts with {turn:.4g}: "
+                    f"dt must be at most {self.dt * math.pi / 4 / turn:.4g} s"
+                )
 
     def _build(self, rigid, iterations):
         p, c = self.p, self.client
         in_loop = self.forces.any()
         self.calls = self.substeps if in_loop else 1  # of stepSimulation for each dt
         p.setPhysicsEngineParameter(
-            fixedTimeStep=self.dt / self.calls, numSubSteps=0 if self.calls == self.substeps else self.substeps,
-            numSolverIterations=iterations, physicsClientId=c)
+            fixedTimeStep=self.dt / self.calls,
+            numSubSteps=0 if self.calls == self.substeps else self.substeps,
+            numSolverIterations=iterations,
+            physicsClientId=c,
+        )
         self.in_engine, self.axes = {}, {}
         for i in self.moving:
             self.in_engine[i], self.axes[i] = self._body(self.scene.bodies[i], rigid)
@@ -96,12 +101,18 @@ class PybulletPeer(Peer):
             body = self.scene.bodies[i]
             w, x, y, z = _multiply(body.orientation.tolist(), self.axes[i])
             p.resetBasePositionAndOrientation(number, body.position.tolist(), (x, y, z, w), physicsClientId=c)
-            p.resetBaseVelocity(number, body.velocity.tolist(), body.angular_velocity.tolist(), physicsClientId=c)
+            p.resetBaseVelocity(
+                number, body.velocity.tolist(), body.angular_velocity.tolist(), physicsClientId=c
+            )
 
     def _body(self, body, rigid):
-        """The engine's number of a body, and the quaternion engine's frame → body's frame, its principal axes."""
+        """The engine's number of a body, and the quaternion principal axes (its frame) → body's frame."""
         p, c = self.p, self.client
-        moments, axes = (np.ones(3), np.array([1.0, 0, 0, 0])) if isinstance(body.shape, Point) else principal_axes(body.inertia)
+        moments, axes = (
+            (np.ones(3), np.array([1.0, 0, 0, 0]))
+            if isinstance(body.shape, Point)
+            else principal_axes(body.inertia)
+        )
         number = p.createMultiBody(baseMass=body.mass, useMaximalCoordinates=rigid, physicsClientId=c)
         p.changeDynamics(number, -1, mass=body.mass, localInertiaDiagonal=moments.tolist(), physicsClientId=c)
         p.changeDynamics(number, -1, linearDamping=0, angularDamping=0, physicsClientId=c)
@@ -135,7 +146,7 @@ class PybulletPeer(Peer):
                 p.applyExternalTorque(number, -1, torque[i], p.WORLD_FRAME, c)
 
     def read(self):
-        """Position, quaternion (w, x, y, z), velocity and angular velocity of each moving body; what can't turn does not."""
+        """Position, quaternion (w, x, y, z), velocity and angular velocity of each moving body."""
         found = []
         for i, number in self.in_engine.items():
             place, (x, y, z, w) = self.p.getBasePositionAndOrientation(number, self.client)
@@ -154,6 +165,9 @@ def _disconnect(pybullet, client):
 
 
 PYBULLET = Engine(
-    "pybullet", 3,
+    "pybullet",
+    3,
     {"substeps": (1, 1), "iterations": (50, 1), "body": ("multibody", ("multibody", "rigid"))},
-    "python -m pip install pybullet==3.2.7, which has wheels for Linux x86-64 with Python up to 3.11", PybulletPeer)
+    "python -m pip install pybullet==3.2.7, which has wheels for Linux x86-64 with Python up to 3.11",
+    PybulletPeer,
+)

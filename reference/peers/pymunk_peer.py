@@ -2,28 +2,32 @@
 
 **The integrator is symplectic Euler, position first.** One ``space.step(h)`` is, in this order,
 
-    x ← x + h v,  φ ← φ + h ω;    v ← damping^h v + h (g + f/m),  ω ← damping^h ω + h τ/I;    then constraints and contact.
+    x ← x + h v,  φ ← φ + h ω;    v ← damping^h v + h (g + f/m),  ω ← damping^h ω + h τ/I;    then constraints
+    and contact.
 
-All numbers are doubles. ``space.damping`` is 1 by default, no damping, and it is the factor that is left after one
-second. Bodies don't sleep by default. ``body.force`` and ``body.torque`` are used in the velocity update, and cleared
-by it. A step starts by moving the body, so a force that was computed from the state *before* the step acts late, and
-the update would become explicit Euler: springs would gain energy. Hence:
+All numbers are doubles. ``space.damping`` is 1 by default, no damping, and it is the factor that is left
+after one second. Bodies don't sleep by default. ``body.force`` and ``body.torque`` are used in the velocity
+update, and cleared by it. A step starts by moving the body, so a force that was computed from the state
+*before* the step acts late, and the update would become explicit Euler: springs would gain energy. Hence:
 
-**Forces without a word in pymunk** are computed before each step at the place to which that step is about to move the
-bodies (x + h v, φ + h ω, the velocities as they are, the time at the end), and set as ``body.force``: the same place at
-which pymunk looks at its own springs. This is what `reference.integrators.symplectic_euler_position_first` does.
+**Forces without a word in pymunk** are computed before each step at the place to which that step is about to
+move the bodies (x + h v, φ + h ω, the velocities as they are, the time at the end), and set as
+``body.force``: the same place at which pymunk looks at its own springs. This is what
+`reference.integrators.symplectic_euler_position_first` does.
 
-**Springs** are pymunk's ``DampedSpring`` (setting ``springs="engine"``): an impulse h k (length − distance) along the
-spring, computed where the bodies are after moving, once a step; so without damping it is the same as a force. Then the
-damper: by the factor e^(−c h/μ) it takes down the speed along the spring, once a step whatever ``iterations``, where
-1/μ is what a unit impulse along the spring changes that speed by. That agrees with a force −c v to order h and is
-stable for any c. ``springs="force"`` computes spring and damper by the law of this course instead.
+**Springs** are pymunk's ``DampedSpring`` (setting ``springs="engine"``): an impulse h k (length − distance)
+along the spring, computed where the bodies are after moving, once a step; so without damping it is the same
+as a force. Then the damper: by the factor e^(−c h/μ) it takes down the speed along the spring, once a step
+whatever ``iterations``, where 1/μ is what a unit impulse along the spring changes that speed by. That agrees
+with a force −c v to order h and is stable for any c. ``springs="force"`` computes spring and damper by the
+law of this course instead.
 
-**Drag** is a force −c v (``drag="force"``), or pymunk's damping (``drag="engine"``: e^(−c/m) left after a second), which
-it has only for all bodies alike: then c/m must be the same for each, and so must (angular drag)/I for what rotates.
+**Drag** is a force −c v (``drag="force"``), or pymunk's damping (``drag="engine"``: e^(−c/m) left after a
+second), which it has only for all bodies alike: then c/m must be the same for each, and so must (angular
+drag)/I for what rotates.
 
-How it was found: one step from given numbers, done by hand, agrees to the last bit; 5 steps of spring and damper in
-closed form agree to 5e-16 for (k, c) = (5, 0), (5, 1), (0, 1), (500, 30). The tests repeat both.
+How it was found: one step from given numbers, done by hand, agrees to the last bit; 5 steps of spring and
+damper in closed form agree to 5e-16 for (k, c) = (5, 0), (5, 1), (0, 1), (500, 30). The tests repeat both.
 
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
@@ -86,8 +90,9 @@ class PymunkPeer(Peer):
                 rates.add(angular / body.inertia)
         if len(rates) > 1:
             raise Unsupported(
-                "pymunk's damping is one for all bodies, linear and angular alike, but this scene's drags need "
-                f"{sorted(rates)} 1/s: use drag='force'")
+                "pymunk's damping is one for all bodies, linear and angular, but this scene's drags need "
+                f"{sorted(rates)} 1/s: use drag='force'"
+            )
         return rates.pop()
 
     def step(self, steps):
@@ -116,14 +121,30 @@ class PymunkPeer(Peer):
     def _start_lists(self):
         """Lists of all bodies, filled with what is static."""
         start = self.bodies
-        return (start.position.tolist(), start.orientation.tolist(), start.velocity.tolist(), start.angular_velocity.tolist())
+        return (
+            start.position.tolist(),
+            start.orientation.tolist(),
+            start.velocity.tolist(),
+            start.angular_velocity.tolist(),
+        )
 
     def read(self):
         """Position, angle, velocity and angular velocity of each moving body."""
-        return [(tuple(b.position), b.angle, tuple(b.velocity), b.angular_velocity) for b in self.in_engine.values()]
+        return [
+            (tuple(b.position), b.angle, tuple(b.velocity), b.angular_velocity)
+            for b in self.in_engine.values()
+        ]
 
 
 PYMUNK = Engine(
-    "pymunk", 2,
-    {"substeps": (1, 1), "iterations": (10, 1), "springs": ("engine", ("engine", "force")), "drag": ("force", ("engine", "force"))},
-    "python -m pip install pymunk==7.3.1", PymunkPeer)
+    "pymunk",
+    2,
+    {
+        "substeps": (1, 1),
+        "iterations": (10, 1),
+        "springs": ("engine", ("engine", "force")),
+        "drag": ("force", ("engine", "force")),
+    },
+    "python -m pip install pymunk==7.3.1",
+    PymunkPeer,
+)
