@@ -45,6 +45,7 @@ def test_runs(file, tmp_path, capsys):
     with capsys.disabled():
         print(f"\n{file}: {done.seconds:.1f} s, {done.cpu:.1f} s of CPU {done.warnings[:200]}")
     assert done.fault == ""
+    assert done.wordless == [], "cells with a picture and no words: show it by view.show(figure, alt)"
     assert done.cpu <= notebooks.SECONDS_WARM
 
 
@@ -180,6 +181,15 @@ def test_a_cell_that_raises_is_a_fault(root, tmp_path, tags):
         root / LESSON, [sample.code("x = 1"), sample.code("assert x == 2, 'planted'", *tags)]
     )
     assert "planted" in run(root, PurePosixPath(LESSON), tmp_path).fault
+
+
+def test_a_picture_without_words_is_a_fault(root, tmp_path):
+    bare = "import matplotlib.pyplot as plt\nplt.plot([1, 2])\nplt.show()"
+    page = "class Page:\n    def _repr_html_(self):\n        return {!r}\nPage()".format
+    cells = [bare, page("<img alt='A line rises to two' src=''>"), page("<img src=''>"), page("<b>Two</b>")]
+    sample.write_notebook(root / LESSON, [sample.code(source) for source in cells])
+    done = run(root, PurePosixPath(LESSON), tmp_path)
+    assert (done.fault, done.wordless) == ("", [1, 3])
 
 
 def test_a_cell_that_hangs_is_a_fault(root, tmp_path):

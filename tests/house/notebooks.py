@@ -217,6 +217,7 @@ class Run(NamedTuple):
     cpu: float  # of the kernel's process
     fault: str  # empty where all cells ran
     warnings: str  # what the cells wrote to standard error
+    wordless: list  # the cells that showed a picture without a description (view.show gives it one)
 
 
 class OwnKernel(AsyncKernelManager):
@@ -249,7 +250,22 @@ def run(root, file, folder, timeout=300):
         fault = f"{file}: {type(problem).__name__}: {_plain(str(problem))[-1500:]}"
     seconds = time.perf_counter() - start
     cpu = 0.0 if fault else float(book.cells[-1].outputs[0].text)
-    return Run(seconds, cpu, fault, _stderr(book))
+    return Run(seconds, cpu, fault, _stderr(book), wordless(book))
+
+
+def wordless(book):
+    """The numbers of the cells whose pictures have no `alt` text of at least four words beside them."""
+    found = []
+    for number, cell in enumerate(book.cells, 1):
+        for output in cell.get("outputs", []) if cell.cell_type == "code" else ():
+            data = output.get("data", {})
+            page = data.get("text/html", "")
+            pictures = re.findall(r"<(?:img|svg|video|canvas)\b[^>]*", page)
+            drawn = any(kind.startswith("image/") for kind in data)
+            words = [re.search(r"""\b(?:alt|aria-label)=["']([^"']*)""", tag) for tag in pictures[:1]]
+            if (drawn or pictures) and not (words and words[0] and len(words[0].group(1).split()) > 3):
+                found.append(number)
+    return found
 
 
 def _plain(words):
