@@ -3,7 +3,8 @@
     from exercises import load
     given, check = load("02")        # or load(2), or load("02_equation_of_motion")
 
-`given` holds the unit's helpers. `check("name")` checks one function of the calling notebook, `check()` all of them.
+`given` holds the unit's helpers. `check("name")` checks one function of the calling notebook, `check()` all
+of them.
 """
 
 import importlib.util
@@ -12,7 +13,7 @@ from pathlib import Path
 
 FOLDER = Path(__file__).resolve().parent
 
-silent = False      # True in a worker: the grader asks from outside, and a notebook's own check cells do nothing
+silent = False  # True in a worker: the grader asks from outside, and a notebook's own check cells do nothing
 
 
 def units():
@@ -40,7 +41,7 @@ def part(unit, name):
         try:
             spec.loader.exec_module(module)
         except BaseException:
-            del sys.modules[full_name]      # a half-made module must not be found by the next call
+            del sys.modules[full_name]  # a half-made module must not be found by the next call
             raise
     return sys.modules[full_name]
 

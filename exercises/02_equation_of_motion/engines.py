@@ -1,4 +1,5 @@
-"""What the engines answer to the questions of unit 02, and the inputs that are recorded. Grader's side only."""
+"""What the engines answer to the questions of unit 02, and the inputs that are recorded. Grader's side
+only."""
 
 import math
 from pathlib import Path
@@ -13,8 +14,9 @@ CASES = 24
 
 
 def plate_in_pymunk(outline, holes, density):
-    """Mass, centre and moment of inertia of a plate with holes. pymunk weighs each polygon and gives its moment about
-    any point, here about the whole plate's centre: so no parallel-axis theorem of ours is in it."""
+    """Mass, centre and moment of inertia of a plate with holes. pymunk weighs each polygon and gives its
+    moment about any point, here about the whole plate's centre: so no parallel-axis theorem of ours is in
+    it."""
     import pymunk
 
     parts = []
@@ -30,7 +32,8 @@ def plate_in_pymunk(outline, holes, density):
 
 
 def swing_in_pybullet(mass, inertia, length, angle, dt, steps):
-    """Angles of a pendulum: a multibody tree of one hinge, with all damping and the hinge's motor switched off."""
+    """Angles of a pendulum: a multibody tree of one hinge, with all damping and the hinge's motor switched
+    off."""
     with silence():
         import pybullet as bullet
     client = bullet.connect(bullet.DIRECT)
@@ -39,12 +42,25 @@ def swing_in_pybullet(mass, inertia, length, angle, dt, steps):
         bullet.setGravity(0, 0, -GRAVITY, **options)
         bullet.setTimeStep(dt, **options)
         body = bullet.createMultiBody(
-            baseMass=0, linkMasses=[mass], linkCollisionShapeIndices=[-1], linkVisualShapeIndices=[-1],
-            linkPositions=[[0, 0, 0]], linkOrientations=[[0, 0, 0, 1]], linkInertialFramePositions=[[0, 0, -length]],
-            linkInertialFrameOrientations=[[0, 0, 0, 1]], linkParentIndices=[0],
-            linkJointTypes=[bullet.JOINT_REVOLUTE], linkJointAxis=[[0, 1, 0]], **options)
-        bullet.changeDynamics(body, 0, localInertiaDiagonal=[inertia] * 3, **options)       # apart from damping: set
-        bullet.changeDynamics(body, 0, linearDamping=0, angularDamping=0, jointDamping=0, **options)     # together, one is lost
+            baseMass=0,
+            linkMasses=[mass],
+            linkCollisionShapeIndices=[-1],
+            linkVisualShapeIndices=[-1],
+            linkPositions=[[0, 0, 0]],
+            linkOrientations=[[0, 0, 0, 1]],
+            linkInertialFramePositions=[[0, 0, -length]],
+            linkInertialFrameOrientations=[[0, 0, 0, 1]],
+            linkParentIndices=[0],
+            linkJointTypes=[bullet.JOINT_REVOLUTE],
+            linkJointAxis=[[0, 1, 0]],
+            **options,
+        )
+        bullet.changeDynamics(
+            body, 0, localInertiaDiagonal=[inertia] * 3, **options
+        )  # apart from damping: set
+        bullet.changeDynamics(
+            body, 0, linearDamping=0, angularDamping=0, jointDamping=0, **options
+        )  # together, one is lost
         bullet.changeDynamics(body, -1, linearDamping=0, angularDamping=0, **options)
         bullet.setJointMotorControl2(body, 0, bullet.VELOCITY_CONTROL, force=0, **options)
         bullet.resetJointState(body, 0, angle, 0.0, **options)
@@ -65,20 +81,44 @@ def _round_polygon(stream, corners, size, centre=(0.0, 0.0)):
 
 
 def rectangle(width, height, x=0.0, y=0.0):
-    return np.array([(x - width / 2, y - height / 2), (x + width / 2, y - height / 2),
-                     (x + width / 2, y + height / 2), (x - width / 2, y + height / 2)])
+    return np.array(
+        [
+            (x - width / 2, y - height / 2),
+            (x + width / 2, y - height / 2),
+            (x + width / 2, y + height / 2),
+            (x - width / 2, y + height / 2),
+        ]
+    )
 
 
-PLATES = {       # what a student may see; random plates follow
-    "a rectangle without holes: mass · (width² + height²) / 12":
-        {"outline": rectangle(3.0, 1.0, 2.0, 1.0), "holes": (), "density": 2.0},
-    "a square with a square hole in its middle":
-        {"outline": rectangle(2.0, 2.0), "holes": (rectangle(1.0, 1.0),), "density": 1.5},
-    "a rectangle with a hole off its middle":
-        {"outline": rectangle(4.0, 2.0, 1.0), "holes": (rectangle(1.0, 1.0, 2.0, 0.25),), "density": 1.0}}
+PLATES = {  # what a student may see; random plates follow
+    "a rectangle without holes: mass · (width² + height²) / 12": {
+        "outline": rectangle(3.0, 1.0, 2.0, 1.0),
+        "holes": (),
+        "density": 2.0,
+    },
+    "a square with a square hole in its middle": {
+        "outline": rectangle(2.0, 2.0),
+        "holes": (rectangle(1.0, 1.0),),
+        "density": 1.5,
+    },
+    "a rectangle with a hole off its middle": {
+        "outline": rectangle(4.0, 2.0, 1.0),
+        "holes": (rectangle(1.0, 1.0, 2.0, 0.25),),
+        "density": 1.0,
+    },
+}
 SWINGS = {
     "let go at 1 rad": {"mass": 2.0, "inertia": 0.3, "length": 0.7, "angle": 1.0, "dt": 0.01, "steps": 40},
-    "let go almost upside down": {"mass": 1.0, "inertia": 0.1, "length": 0.5, "angle": 3.0, "dt": 0.02, "steps": 40}}
+    "let go almost upside down": {
+        "mass": 1.0,
+        "inertia": 0.1,
+        "length": 0.5,
+        "angle": 3.0,
+        "dt": 0.02,
+        "steps": 40,
+    },
+}
 
 
 def plate_inputs():
@@ -86,23 +126,51 @@ def plate_inputs():
     for i in range(CASES):
         shift, side = stream.uniform(-3, 3, 2), stream.uniform(0, 2 * math.pi)
         outline = _round_polygon(stream, 6 + i % 3, 2.0, shift)
-        holes = [_round_polygon(stream, 3 + i % 3, 0.4, shift + sign * 0.7 * np.array([math.cos(side), math.sin(side)]))
-                 for sign in (1, -1)[:1 + i % 2]]
-        inputs.append({"outline": outline, "holes": tuple(holes), "density": round(stream.uniform(0.5, 3), 3)})
+        holes = [
+            _round_polygon(
+                stream, 3 + i % 3, 0.4, shift + sign * 0.7 * np.array([math.cos(side), math.sin(side)])
+            )
+            for sign in (1, -1)[: 1 + i % 2]
+        ]
+        inputs.append(
+            {"outline": outline, "holes": tuple(holes), "density": round(stream.uniform(0.5, 3), 3)}
+        )
     return inputs
 
 
 def swing_inputs():
     stream = np.random.default_rng(22)
     return [*SWINGS.values()] + [
-            {"mass": round(stream.uniform(0.5, 3), 3), "inertia": round(stream.uniform(0.1, 0.5), 3),
-             "length": round(stream.uniform(0.3, 1), 3), "angle": round(stream.uniform(0.8, 2.8), 3),
-             "dt": round(stream.uniform(0.004, 0.02), 4), "steps": 40} for _ in range(CASES)]
+        {
+            "mass": round(stream.uniform(0.5, 3), 3),
+            "inertia": round(stream.uniform(0.1, 0.5), 3),
+            "length": round(stream.uniform(0.3, 1), 3),
+            "angle": round(stream.uniform(0.8, 2.8), 3),
+            "dt": round(stream.uniform(0.004, 0.02), 4),
+            "steps": 40,
+        }
+        for _ in range(CASES)
+    ]
 
 
-PLATE = EngineOracle("pymunk", FOLDER / "plate_pymunk.json", plate_in_pymunk, plate_inputs,
-                     {"functions": "Poly.area, Poly.center_of_gravity, moment_for_poly with an offset"})
-SWING = EngineOracle("pybullet", FOLDER / "swing_pybullet.json", swing_in_pybullet, swing_inputs,
-                     {"body": "multibody tree, one revolute joint", "gravity": GRAVITY, "damping": 0,
-                      "joint motor": "off", "precision": "double"})
+PLATE = EngineOracle(
+    "pymunk",
+    FOLDER / "plate_pymunk.json",
+    plate_in_pymunk,
+    plate_inputs,
+    {"functions": "Poly.area, Poly.center_of_gravity, moment_for_poly with an offset"},
+)
+SWING = EngineOracle(
+    "pybullet",
+    FOLDER / "swing_pybullet.json",
+    swing_in_pybullet,
+    swing_inputs,
+    {
+        "body": "multibody tree, one revolute joint",
+        "gravity": GRAVITY,
+        "damping": 0,
+        "joint motor": "off",
+        "precision": "double",
+    },
+)
 ENGINES = (PLATE, SWING)

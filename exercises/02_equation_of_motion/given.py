@@ -2,14 +2,14 @@
 
 import numpy as np
 
-GRAVITY = 9.81      # m/s²
+GRAVITY = 9.81  # m/s²
 
 
 def polygon(vertices):
     """`(area, centre, second_moment)` of a polygon with its corners in counter-clockwise order.
 
-    `second_moment` is the integral of the squared distance from `centre` over the area, in m⁴: times kg/m² it is
-    the polygon's moment of inertia about its own centre.
+    `second_moment` is the integral of the squared distance from `centre` over the area, in m⁴: times kg/m² it
+    is the polygon's moment of inertia about its own centre.
     """
     a = np.asarray(vertices, dtype=float)
     b = np.roll(a, -1, axis=0)
@@ -27,7 +27,7 @@ def decay(speed):
 
 def forced(frequency, drive):
     """The rate of y = (position, velocity): an oscillator that a force drive · cos(2t) shakes."""
-    return lambda t, y: np.array([y[1], -frequency**2 * y[0] + drive * np.cos(2 * t)])
+    return lambda t, y: np.array([y[1], -(frequency**2) * y[0] + drive * np.cos(2 * t)])
 
 
 def pendulum(length):
@@ -62,8 +62,10 @@ def show_tumble(march, step, body_rate):
 def _draw_tumble(time, runs):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3), sharey=True, layout="constrained")
-    for panel, history, title in zip(axes, runs, ("wheel at rest", "wheel turning about axis 2"), strict=True):
+    _, axes = plt.subplots(1, 2, figsize=(9, 3), sharey=True, layout="constrained")
+    for panel, history, title in zip(
+        axes, runs, ("wheel at rest", "wheel turning about axis 2"), strict=True
+    ):
         for column, (colour, line) in enumerate((("#0072B2", "-"), ("#D55E00", "--"), ("#009E73", ":"))):
             panel.plot(time, history[:, column], line, color=colour, label=f"Ω{column + 1}")
         panel.set(title=title, xlabel="time in s")
@@ -75,9 +77,14 @@ def _draw_tumble(time, runs):
 def show_flight(march, step, air_force):
     """Draws the path of a kicked ball of 0.43 kg: without spin, with spin, and with spin against the wind."""
     mass, gravity, runs = 0.43, np.array([0.0, 0.0, -GRAVITY]), {}
-    for label, spin, wind in (("no spin", 0.0, 0.0), ("spin", 60.0, 0.0), ("spin, wind from ahead", 60.0, -6.0)):
-        def rate(t, y, spin=np.array([0.0, 0.0, spin]), wind=np.array([wind, 0.0, 0.0])):
-            force = air_force(y[3:], spin, wind, 0.006, 0.0012)
+    for label, spin, wind in (
+        ("no spin", 0.0, 0.0),
+        ("spin", 60.0, 0.0),
+        ("spin, wind from ahead", 60.0, -6.0),
+    ):
+
+        def rate(t, y, spin=spin, wind=wind):
+            force = air_force(y[3:], np.array([0.0, 0.0, spin]), np.array([wind, 0.0, 0.0]), 0.006, 0.0012)
             return np.concatenate([y[3:], gravity + (np.zeros(3) if force is None else force) / mass])
 
         runs[label] = march(step, rate, np.array([0.0, 0.0, 0.0, 25.0, 0.0, 10.0]), 0.02, 90)
@@ -90,10 +97,11 @@ def show_flight(march, step, air_force):
 def _draw_flight(runs):
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(1, 2, figsize=(9, 3), layout="constrained")
+    _, axes = plt.subplots(1, 2, figsize=(9, 3), layout="constrained")
     for panel, column, title in ((axes[0], 2, "from the side: height"), (axes[1], 1, "from above: sideways")):
-        for (label, history), (colour, line) in zip(runs.items(), (("#0072B2", "-"), ("#D55E00", "--"),
-                                                                   ("#009E73", ":")), strict=True):
+        for (label, history), (colour, line) in zip(
+            runs.items(), (("#0072B2", "-"), ("#D55E00", "--"), ("#009E73", ":")), strict=True
+        ):
             panel.plot(history[:, 0], history[:, column], line, color=colour, label=label)
         panel.set(title=title, xlabel="x in m", ylabel=f"{'xyz'[column]} in m")
     axes[0].legend()

@@ -1,7 +1,7 @@
 """Stands in for packages that an exercise is to be solved without: the reference, and the engines that judge.
 
-`import reference` in a student's cell goes through, so that the cell's other lines run, but using anything of it raises.
-So a notebook that leans on them fails in the shell as it will in class, and says why.
+`import reference` in a student's cell goes through, so that the cell's other lines run, but using anything of
+it raises. So a notebook that leans on them fails in the shell as it will in class, and says why.
 """
 
 import importlib.abc
@@ -23,10 +23,16 @@ class _Use:
         object.__setattr__(self, "_name", name)
 
     def _raise(self, *arguments, **options):
-        raise Absent(f"{self._name} is not there while an exercise is checked: use your own functions and `given`")
+        raise Absent(
+            f"{self._name} is not there while an exercise is checked: use your own functions and `given`"
+        )
 
-    __call__ = __getitem__ = __iter__ = __len__ = __float__ = __int__ = __index__ = __bool__ = __array__ = _raise
-    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __matmul__ = __rmatmul__ = __truediv__ = _raise
+    __call__ = __getitem__ = __iter__ = __len__ = __float__ = __int__ = __index__ = __bool__ = __array__ = (
+        _raise
+    )
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __matmul__ = __rmatmul__ = __truediv__ = (
+        _raise
+    )
     __enter__ = __exit__ = __setattr__ = _raise
 
     def __getattr__(self, name):

@@ -1,8 +1,8 @@
 """Code cells of a file, and running them one after the other in a plain namespace, as a notebook would.
 
-A file is a notebook (.ipynb) or a script whose cells begin with `# %%`. IPython's own syntax (%magic, !command, name?)
-is translated by IPython's transformer and then does nothing, but for the magics that only measure or catch what a cell
-does: their cell runs. A cell that raises doesn't stop the later ones.
+A file is a notebook (.ipynb) or a script whose cells begin with `# %%`. IPython's own syntax (%magic,
+!command, name?) is translated by IPython's transformer and then does nothing, but for the magics that only
+measure or catch what a cell does: their cell runs. A cell that raises doesn't stop the later ones.
 """
 
 import ast
@@ -49,7 +49,12 @@ class Namespace:
         """Runs one cell. None, or the exception as `describe` tells it."""
         try:
             tree = ast.parse(_as_python(source), name)
-            linecache.cache[name] = (len(source), None, source.splitlines(keepends=True), name)   # lines for tracebacks
+            linecache.cache[name] = (
+                len(source),
+                None,
+                source.splitlines(keepends=True),
+                name,
+            )  # lines for tracebacks
             code = compile(tree, name, "exec", flags=ast.PyCF_ALLOW_TOP_LEVEL_AWAIT)
             result = eval(code, self.names)
             if inspect.iscoroutine(result):
@@ -64,13 +69,16 @@ def _as_python(source):
         compile(source, "cell", "exec", flags=ast.PyCF_ALLOW_TOP_LEVEL_AWAIT)
         return source
     except (SyntaxError, ValueError):
-        from IPython.core.inputtransformer2 import TransformerManager     # takes time to import: only where needed
+        from IPython.core.inputtransformer2 import (
+            TransformerManager,  # takes time to import: only where needed
+        )
 
         return TransformerManager().transform_cell(source)
 
 
 class Shell:
-    """What `get_ipython()` gives: magics and system commands that do nothing, cell magics that run their cell."""
+    """What `get_ipython()` gives: magics and system commands that do nothing, cell magics that run their
+    cell."""
 
     def __init__(self, namespace):
         self.namespace, self.user_ns = namespace, namespace.names

@@ -6,14 +6,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from exercises.grader.replies import Reply
+from exercises.grader.replies import Reply, encode
 
-SELF_STUDY_SEED = 2      # public: notebook and shell draw the same hidden cases, so they give the same points
+SELF_STUDY_SEED = 2  # public: notebook and shell draw the same hidden cases, so they give the same points
 
 
 @dataclass(frozen=True)
 class Case:
     """One question, in words and as values by name. The values are of the kinds that replies.pack knows."""
+
     label: str
     values: dict
     hidden: bool = False
@@ -22,13 +23,16 @@ class Case:
 @dataclass(frozen=True)
 class Call:
     """`function(*arguments)`, to be done by the worker."""
+
     function: str
     arguments: tuple
 
 
 @dataclass(frozen=True)
 class Cause:
-    """A likely cause: `matches(values, verdict)` says whether this failure looks like it; `text` says it to a student."""
+    """A likely cause: `matches(values, verdict)` says whether this failure looks like it; `text` says it to a
+    student."""
+
     text: str
     matches: Callable
 
@@ -36,23 +40,25 @@ class Cause:
 @dataclass(frozen=True)
 class Check:
     """A check of one function, or of one property. All its cases pass, or it earns nothing."""
+
     name: str
-    title: str                     # what is checked, in a few words
+    title: str  # what is checked, in a few words
     points: int
-    visible: tuple                 # cases that a student may see
-    hidden: Callable               # hidden(random generator) -> list of cases
-    judge: Callable                # judge(values, answers of the calls) -> Verdict
-    why: str                       # the reason of the tolerance
-    section: str                   # heading on the unit's page to read
-    function: str = ""             # the student's function; the check's name unless given
-    calls: Callable = None         # calls(values) -> list of Call; one call with the values in order unless given
-    causes: tuple = ()             # Cause, the first that matches is told
-    hint: str = ""                 # likely cause where none matches
+    visible: tuple  # cases that a student may see
+    hidden: Callable  # hidden(random generator) -> list of cases
+    judge: Callable  # judge(values, answers of the calls) -> Verdict
+    why: str  # the reason of the tolerance
+    section: str  # heading on the unit's page to read
+    function: str = ""  # the student's function; the check's name unless given
+    calls: Callable = None  # calls(values) -> list of Call; one call with the values in order unless given
+    causes: tuple = ()  # Cause, the first that matches is told
+    hint: str = ""  # likely cause where none matches
     reply: Reply = field(default_factory=Reply)
-    source: Callable = None        # source() -> where the expected values come from, in words
+    source: Callable = None  # source() -> where the expected values come from, in words
 
     def cases(self, seed):
-        """All cases for a seed. Each check has its own stream, so that a new check leaves the others' cases alone."""
+        """All cases for a seed. Each check has its own stream, so that a new check leaves the others' cases
+        alone."""
         stream = np.random.default_rng([seed, zlib.crc32(self.name.encode())])
         return [*self.visible, *(Case(case.label, case.values, hidden=True) for case in self.hidden(stream))]
 
@@ -60,6 +66,19 @@ class Check:
         if self.calls is not None:
             return self.calls(case.values)
         return [Call(self.function or self.name, tuple(case.values.values()))]
+
+
+def remember(oracle):
+    """An oracle that works each case out once: for a costly one, asked again for every submission."""
+    known = {}
+
+    def remembered(values):
+        key = encode(values)
+        if key not in known:
+            known[key] = oracle(values)
+        return known[key]
+
+    return remembered
 
 
 def cause(text, when):
@@ -73,6 +92,7 @@ def cause_like(text, model):
     A case where the mistake does not show (its answer is the right one) neither speaks for it nor against it:
     only failing cases are looked at, and there the mistaken answer must be the one that came.
     """
+
     def matches(values, verdict):
         from exercises.grader.judges import difference
 

@@ -1,5 +1,5 @@
-"""Ask, judge, count points. `ask` is any function from a request's text to a response's text: the worker in this process
-(notebook), in a subprocess (shell), or in a sandbox (class)."""
+"""Ask, judge, count points. `ask` is any function from a request's text to a response's text: the worker in
+this process (notebook), in a subprocess (shell), or in a sandbox (class)."""
 
 import json
 import math
@@ -13,6 +13,7 @@ from exercises.grader.replies import BadReply, admit, pack, parse
 @dataclass(frozen=True)
 class Failure:
     """A call that brought no answer: it raised, or returned what no check can take."""
+
     kind: str
     message: str
     lines: tuple = ()
@@ -44,12 +45,15 @@ def mark(check, ask, seed=SELF_STUDY_SEED):
     """The Result of one check. All calls of all its cases go in one message."""
     cases = check.cases(seed)
     calls = [check.calls_of(case) for case in cases]
-    request = [{"function": call.function, "arguments": [pack(argument) for argument in call.arguments]}
-               for group in calls for call in group]
+    request = [
+        {"function": call.function, "arguments": [pack(argument) for argument in call.arguments]}
+        for group in calls
+        for call in group
+    ]
     answers = _read(ask(json.dumps({"calls": request}, allow_nan=False)), len(request), check.reply)
     outcomes = []
     for case, group in zip(cases, calls, strict=True):
-        mine, answers = answers[:len(group)], answers[len(group):]
+        mine, answers = answers[: len(group)], answers[len(group) :]
         outcomes.append(Outcome(case, group, _verdict(check, case, mine), "".join(text for _, text in mine)))
     return Result(check, outcomes)
 

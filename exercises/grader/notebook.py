@@ -1,7 +1,8 @@
-"""`check("name")` in a notebook: looks at the functions that the notebook holds now, prints a report, returns nothing.
+"""`check("name")` in a notebook: looks at the functions that the notebook holds now, prints a report, returns
+nothing.
 
-Grader and worker sit in one process here, and talk in the same text as over a pipe: so a reply that could not cross the
-pipe does not pass here either.
+Grader and worker sit in one process here, and talk in the same text as over a pipe: so a reply that could not
+cross the pipe does not pass here either.
 """
 
 import sys
@@ -19,7 +20,9 @@ class NotebookCheck:
         self.unit = unit
 
     def __call__(self, name=None):
-        checks = exercises.part(self.unit, "checks").CHECKS       # imported at the first check: engines take a moment
+        checks = exercises.part(
+            self.unit, "checks"
+        ).CHECKS  # imported at the first check: engines take a moment
         names = [check.name for check in checks]
         if name is not None and name not in names:
             print(f"There is no check {name!r}. There is: {', '.join(names)}; check() does them all.")

@@ -2,8 +2,9 @@
 
     python -m exercises.grader.recordings --unit 02       re-records, with the engines installed here
 
-An `EngineOracle` is an oracle for `judges.equal`. Where the engine can be imported it runs, else the committed
-recording speaks. Checks draw their cases from the recorded inputs (`pool`), so that every seed can be judged anywhere.
+An `EngineOracle` is an oracle for `judges.equal`. Where the engine can be imported it runs, else the
+committed recording speaks. Checks draw their cases from the recorded inputs (`pool`), so that every seed can
+be judged anywhere.
 """
 
 import argparse
@@ -25,10 +26,17 @@ class Unrecorded(Exception):
 
 
 class EngineOracle:
-    """`run(**inputs)` asks the engine. `inputs()` gives the list of all inputs to record; `settings` says how it is set."""
+    """`run(**inputs)` asks the engine. `inputs()` gives the list of all inputs to record; `settings` says how
+    it is set."""
 
     def __init__(self, engine, path, run, inputs, settings):
-        self.engine, self.path, self.run, self.inputs, self.settings = engine, Path(path), run, inputs, settings
+        self.engine, self.path, self.run, self.inputs, self.settings = (
+            engine,
+            Path(path),
+            run,
+            inputs,
+            settings,
+        )
         self.answers = {}
 
     @property
@@ -46,17 +54,23 @@ class EngineOracle:
         return [_read(entry["inputs"]) for entry in self.recording["cases"]]
 
     def __call__(self, values):
-        key = _key(values), self.live
+        key = self.key(values), self.live
         if key not in self.answers:
-            self.answers[key] = self.run(**values) if self.live else self._recorded(key[0])
+            self.answers[key] = self.run(**values) if self.live else self.recorded(key[0])
         return self.answers[key]
 
-    def _recorded(self, key):
+    @staticmethod
+    def key(values):
+        return json.dumps(_plain(values))
+
+    def recorded(self, key):
         for entry in self.recording["cases"]:
             if json.dumps(entry["inputs"]) == key:
                 return _read(entry["output"])
-        raise Unrecorded(f"{self.engine} is not installed here, and {self.path.name} does not hold this case: "
-                         f"check with the usual seed's pool of cases, or where {self.engine} is installed")
+        raise Unrecorded(
+            f"{self.engine} is not installed here, and {self.path.name} does not hold this case: "
+            f"check with the usual seed's pool of cases, or where {self.engine} is installed"
+        )
 
     def source(self):
         """Which of the two speaks, in words."""
@@ -68,8 +82,12 @@ class EngineOracle:
     def record(self):
         """Runs the engine on all inputs, and writes the recording."""
         cases = [{"inputs": _plain(values), "output": _plain(self.run(**values))} for values in self.inputs()]
-        head = {"engine": self.engine, "version": importlib.metadata.version(self.engine), "settings": self.settings,
-                "platform": f"{platform.system()} {platform.machine()}, Python {platform.python_version()}"}
+        head = {
+            "engine": self.engine,
+            "version": importlib.metadata.version(self.engine),
+            "settings": self.settings,
+            "platform": f"{platform.system()} {platform.machine()}, Python {platform.python_version()}",
+        }
         lines = ",\n".join("  " + json.dumps(case) for case in cases)
         text = json.dumps(head, indent=1)[:-2] + ',\n "cases": [\n' + lines + "\n ]\n}\n"
         self.path.write_text(text, encoding="utf-8")
@@ -77,7 +95,8 @@ class EngineOracle:
 
 @contextlib.contextmanager
 def silence():
-    """Nothing reaches the terminal, not even from compiled code: some engines announce themselves when imported."""
+    """Nothing reaches the terminal, not even from compiled code: some engines announce themselves when
+    imported."""
     sys.stderr.flush()
     nowhere, kept = os.open(os.devnull, os.O_WRONLY), [(number, os.dup(number)) for number in (1, 2)]
     try:
@@ -91,10 +110,6 @@ def silence():
         os.close(nowhere)
 
 
-def _key(values):
-    return json.dumps(_plain(values))
-
-
 def _plain(value):
     """As JSON that can be read and compared by eye; floats are written so that they return exactly."""
     if isinstance(value, np.ndarray):
@@ -106,14 +121,18 @@ def _plain(value):
 
 def _read(data):
     if isinstance(data, dict):
-        return np.array(data["array"]) if "array" in data else {key: _read(item) for key, item in data.items()}
+        return (
+            np.array(data["array"]) if "array" in data else {key: _read(item) for key, item in data.items()}
+        )
     return tuple(_read(item) for item in data) if isinstance(data, list) else data
 
 
 def main(arguments=None):
     import exercises
 
-    parser = argparse.ArgumentParser(prog="python -m exercises.grader.recordings", description="Re-records a unit.")
+    parser = argparse.ArgumentParser(
+        prog="python -m exercises.grader.recordings", description="Re-records a unit."
+    )
     parser.add_argument("--unit", required=True)
     unit = exercises.slug(parser.parse_args(arguments).unit)
     for oracle in exercises.part(unit, "engines").ENGINES:

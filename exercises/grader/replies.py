@@ -1,9 +1,11 @@
-"""Which values may cross between grader and student, and how they are written: plain JSON text, never a pickle.
+"""Which values may cross between grader and student, and how they are written: plain JSON text, never a
+pickle.
 
-None, bool, numbers, declared words, tuples (lists become tuples), dicts with text keys, arrays, sparse arrays.
-Arrays travel as their bytes, so every float arrives exactly. inf and NaN arrive only where a check declares them.
-From the grader to the student two more kinds may go: `Given` (a helper made by given.py) and `Student` (one of the
-student's own functions), since a check may hand a callable to the function that it tests.
+None, bool, numbers, declared words, tuples (lists become tuples), dicts with text keys, arrays, sparse
+arrays. Arrays travel as their bytes, so every float arrives exactly. inf and NaN arrive only where a check
+declares them. From the grader to the student two more kinds may go: `Given` (a helper made by given.py) and
+`Student` (one of the student's own functions), since a check may hand a callable to the function that it
+tests.
 """
 
 import base64
@@ -14,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-LONGEST_TEXT = 8_000_000      # characters: far above any answer asked for, far below what hurts the grader
+LONGEST_TEXT = 8_000_000  # characters: far above any answer asked for, far below what hurts the grader
 LONGEST_WORD = 200
 ARRAY_TYPES = {"f8": np.dtype("<f8"), "i8": np.dtype("<i8"), "b1": np.dtype("|b1")}
 
@@ -26,6 +28,7 @@ class BadReply(ValueError):
 @dataclass(frozen=True)
 class Reply:
     """What a check lets come back, beyond numbers and arrays of finite numbers."""
+
     words: tuple = ()
     nonfinite: bool = False
 
@@ -52,7 +55,7 @@ def pack(value):
     if value is None or isinstance(value, (bool, np.bool_)):
         return None if value is None else bool(value)
     if isinstance(value, (int, np.integer)):
-        return int(value)
+        return _whole(int(value))
     if isinstance(value, (float, np.floating)):
         return float(value) if math.isfinite(value) else {"float": repr(float(value))}
     if isinstance(value, str):
@@ -72,13 +75,25 @@ def pack(value):
     if _is_sparse(value):
         entries = value.tocoo()
         row, column = (np.asarray(index, dtype="i8") for index in (entries.row, entries.col))
-        return {"sparse": [int(n) for n in entries.shape], "row": pack(row), "column": pack(column),
-                "value": pack(np.asarray(entries.data, dtype=float))}
-    raise BadReply(f"a {type(value).__name__} cannot be checked: numbers, arrays, tuples, dicts, True, False or None can")
+        return {
+            "sparse": [int(n) for n in entries.shape],
+            "row": pack(row),
+            "column": pack(column),
+            "value": pack(np.asarray(entries.data, dtype=float)),
+        }
+    raise BadReply(
+        f"a {type(value).__name__} cannot be checked: numbers, arrays, tuples, dicts, True, False or None can"
+    )
+
+
+def _whole(number):
+    if abs(number) >= 2**63:  # such a number is no answer, and some operations on it would hurt the grader
+        raise BadReply("the answer holds a whole number of more than 64 bits")
+    return number
 
 
 def _is_sparse(value):
-    sparse = sys.modules.get("scipy.sparse")        # whoever made a sparse array has imported it already
+    sparse = sys.modules.get("scipy.sparse")  # whoever made a sparse array has imported it already
     return sparse is not None and sparse.issparse(value)
 
 
@@ -86,14 +101,21 @@ def _pack_array(array):
     for name, kinds in (("b1", "b"), ("i8", "i"), ("f8", "fu")):
         if array.dtype.kind in kinds:
             data = np.ascontiguousarray(array, dtype=ARRAY_TYPES[name])
-            return {"array": base64.b64encode(data.tobytes()).decode(), "type": name, "shape": list(array.shape)}
+            return {
+                "array": base64.b64encode(data.tobytes()).decode(),
+                "type": name,
+                "shape": list(array.shape),
+            }
     raise BadReply(f"an array of type {array.dtype} cannot be checked: use real numbers")
 
 
 def unpack(data, resolve=None):
-    """The value of nested JSON data. `resolve(data)` makes `given` and `student` arguments; without it none may come."""
-    if data is None or isinstance(data, (bool, int, float)):
+    """The value of nested JSON data. `resolve(data)` makes `given` and `student` arguments; without it none
+    may come."""
+    if data is None or isinstance(data, (bool, float)):
         return data
+    if isinstance(data, int):
+        return _whole(data)
     if not isinstance(data, dict):
         raise BadReply("this is not how a value is written")
     if "float" in data:
@@ -120,13 +142,16 @@ def _unpack_array(data):
         raise BadReply("an array's shape must be a few whole numbers")
     if math.prod(shape) * kind.itemsize != len(raw):
         raise BadReply("an array's shape does not fit its data")
-    return np.frombuffer(raw, dtype=kind).reshape(shape).copy()      # a copy, so that it may be written to
+    return np.frombuffer(raw, dtype=kind).reshape(shape).copy()  # a copy, so that it may be written to
 
 
 def _unpack_sparse(data):
     import scipy.sparse
 
-    shape, row, column, value = (tuple(data["sparse"]), *(unpack(data[key]) for key in ("row", "column", "value")))
+    shape, row, column, value = (
+        tuple(data["sparse"]),
+        *(unpack(data[key]) for key in ("row", "column", "value")),
+    )
     if len(shape) != 2 or not all(type(n) is int and 0 <= n < 2**31 for n in shape):
         raise BadReply("a sparse array's shape must be two whole numbers")
     return scipy.sparse.coo_array((value, (row, column)), shape=shape)

@@ -15,13 +15,18 @@ def report(result, page):
     check, failing = result.check, [outcome for outcome in result.outcomes if not outcome.verdict.passed]
     if not failing:
         source = f"; {check.source()}" if check.source else ""
-        return f"passed  {check.name}: {check.points} of {check.points} points ({len(result.outcomes)} cases{source})"
+        points = f"{check.points} of {check.points} points"
+        return f"passed  {check.name}: {points} ({len(result.outcomes)} cases{source})"
     first = failing[0]
+    if all(outcome.verdict.got is None for outcome in failing):
+        return "\n".join(_unwritten(check, page))
     count = f"{len(failing)} of {len(result.outcomes)} cases fail, here is the first"
-    lines = [f"FAILED  {check.name}: 0 of {check.points} points. {check.title[0].upper()}{check.title[1:]}: {count}."]
+    lines = [f"FAILED  {check.name}: 0 of {check.points} points; {count}."]
+    lines += _row("asked for", check.title)
     lines += _row("case", first.case.label)
     lines += [line for call in first.calls[:1] for line in _row("call", write_call(call))]
     lines += _what_came(first)
+    lines += _row("why that tolerance", check.why) if not first.verdict.complaint else []
     if check.source:
         lines += _row("expected comes from", check.source())
     if first.printed:
@@ -31,12 +36,21 @@ def report(result, page):
     return "\n".join(lines)
 
 
+def _unwritten(check, page):
+    return [
+        f"to do   {check.name}: 0 of {check.points} points; it returns None.",
+        *_row("asked for", check.title),
+        *_row("likely cause", "The function is still to be written, or its `return` is missing."),
+        *_row("read", f'{page}, section "{check.section}"'),
+    ]
+
+
 def _what_came(outcome):
     verdict = outcome.verdict
     if isinstance(verdict.got, Failure):
         failure = verdict.got
-        rows = _row("got", failure.message if failure.kind in ("answer", "no answer")
-                    else f"{failure.kind}: {failure.message}")
+        raised = failure.kind not in ("answer", "no answer")
+        rows = _row("got", f"{failure.kind}: {failure.message}" if raised else failure.message)
         return rows + [line for text in failure.lines for line in _row("", text)]
     rows = _row("expected", write(verdict.expected)) + _row("got", write(verdict.got))
     if verdict.complaint:
@@ -53,8 +67,6 @@ def likely_cause(result):
     raised = [outcome.verdict.got for outcome in failing if isinstance(outcome.verdict.got, Failure)]
     if raised:
         return _cause_of_failure(raised[0], check)
-    if all(outcome.verdict.got is None for outcome in failing):
-        return "The function is still to be written, or its `return` is missing."
     if failing[0].verdict.complaint:
         return f"The answer is not of the kind asked for: {failing[0].verdict.complaint}."
     for cause in check.causes:
@@ -67,7 +79,7 @@ def _matches(cause, outcome):
     try:
         return bool(cause.matches(outcome.case.values, outcome.verdict))
     except (TypeError, ValueError, IndexError, KeyError, AttributeError):
-        return False                # an answer so odd that this cause's test cannot even look at it
+        return False  # an answer so odd that this cause's test cannot even look at it
 
 
 def _cause_of_failure(failure, check):
@@ -84,8 +96,12 @@ def _cause_of_failure(failure, check):
 
 def _row(name, text):
     """One line of the report, or several: the text's own lines are kept, long ones are wrapped."""
-    lines = [piece for line in str(text).splitlines() or [""]
-             for piece in textwrap.wrap(line, WIDTH - INDENT, break_long_words=False, break_on_hyphens=False) or [""]]
+    lines = [
+        piece
+        for line in str(text).splitlines() or [""]
+        for piece in textwrap.wrap(line, WIDTH - INDENT, break_long_words=False, break_on_hyphens=False)
+        or [""]
+    ]
     return [f"    {name if i == 0 else '':<{INDENT - 4}}{line}" for i, line in enumerate(lines[:12])]
 
 
@@ -134,5 +150,8 @@ def _list(items):
 
 def total(results):
     """The last line: points of all checks."""
-    earned, possible = sum(result.earned for result in results), sum(result.check.points for result in results)
+    earned, possible = (
+        sum(result.earned for result in results),
+        sum(result.check.points for result in results),
+    )
     return f"{earned} of {possible} points"

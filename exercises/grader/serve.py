@@ -1,10 +1,11 @@
-"""The loop of the shell's subprocess: requests come in on standard input, responses go out on standard output.
+"""The loop of the shell's subprocess: requests come in on standard input, responses go out on standard
+output.
 
     {"cell": source, "name": "cell 3"}    runs a cell              → {"error": null or {...}}
     {"calls": [...]}                      answers as worker.py says → {"replies": [...]}
 
-The student's own printing must not get between the responses, so the two pipes are kept under other numbers, and what
-cells print goes nowhere.
+The student's own printing must not get between the responses, so the two pipes are kept under other numbers,
+and what cells print goes nowhere.
 """
 
 import json
@@ -26,7 +27,7 @@ def main(unit):
     exercises.silent = True
     absent.hide()
     namespace = Namespace()
-    sys.modules["__main__"] = namespace.module         # classes and compiled functions look their module up by name
+    sys.modules["__main__"] = namespace.module  # classes and compiled functions look their module up by name
     worker = Worker(namespace.names, exercises.part(unit, "given"))
     for line in inbox:
         request = json.loads(line)

@@ -2,8 +2,8 @@
 
     python -m exercises.grader.shell --unit 02 PATH [--json FILE] [--seed N] [--limit SECONDS]
 
-PATH is a notebook, or a script with cells. All its code cells run in a fresh Python process. The exit code is 0 if all
-checks pass, 1 if some fail, 2 if the file could not be checked.
+PATH is a notebook, or a script with cells. All its code cells run in a fresh Python process. The exit code is
+0 if all checks pass, 1 if some fail, 2 if the file could not be checked.
 """
 
 import argparse
@@ -24,15 +24,19 @@ from exercises.grader.student import StudentProcess
 
 def main(arguments=None):
     options = _options(arguments)
-    sys.stdout.reconfigure(errors="replace")        # a console that cannot show a student's letters must not stop us
+    sys.stdout.reconfigure(
+        errors="replace"
+    )  # a console that cannot show a student's letters must not stop us
     try:
         unit = exercises.slug(options.unit)
         cells = read_cells(options.path)
-    except ValueError as error:                     # Unreadable is one
+    except ValueError as error:  # Unreadable is one
         print(error, file=sys.stderr)
         return 2
     try:
-        results, troubles = check_cells(unit, cells, options.path.resolve().parent, options.seed, options.limit)
+        results, troubles = check_cells(
+            unit, cells, options.path.resolve().parent, options.seed, options.limit
+        )
     except Unrecorded as error:
         print(error, file=sys.stderr)
         return 2
@@ -62,9 +66,12 @@ def check_cells(unit, cells, folder, seed=SELF_STUDY_SEED, limit=60.0, show=prin
 
 
 def summarise(unit, results):
-    return {"unit": unit, "earned": sum(result.earned for result in results),
-            "possible": sum(result.check.points for result in results),
-            "passed": {result.check.name: result.passed for result in results}}
+    return {
+        "unit": unit,
+        "earned": sum(result.earned for result in results),
+        "possible": sum(result.check.points for result in results),
+        "passed": {result.check.name: result.passed for result in results},
+    }
 
 
 def _tell_troubles(cells, troubles):
@@ -75,12 +82,20 @@ def _tell_troubles(cells, troubles):
 
 
 def _options(arguments):
-    parser = argparse.ArgumentParser(prog="python -m exercises.grader.shell", description=__doc__.split("\n")[0])
-    parser.add_argument("path", type=Path, metavar="PATH", help="a notebook (.ipynb), or a script with # %%%% cells")
+    parser = argparse.ArgumentParser(
+        prog="python -m exercises.grader.shell", description=__doc__.split("\n")[0]
+    )
+    parser.add_argument(
+        "path", type=Path, metavar="PATH", help="a notebook (.ipynb), or a script with # %%%% cells"
+    )
     parser.add_argument("--unit", required=True, help="number or slug of the unit, such as 02")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="write unit, earned, possible, passed there")
+    parser.add_argument(
+        "--json", type=Path, metavar="FILE", help="write unit, earned, possible, passed there"
+    )
     parser.add_argument("--seed", type=int, default=SELF_STUDY_SEED, help="draws the hidden cases")
-    parser.add_argument("--limit", type=float, default=60.0, metavar="SECONDS", help="for each cell and each check")
+    parser.add_argument(
+        "--limit", type=float, default=60.0, metavar="SECONDS", help="for each cell and each check"
+    )
     return parser.parse_args(arguments)
 
 

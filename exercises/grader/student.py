@@ -1,9 +1,11 @@
-"""The shell's subprocess, seen from outside: a student's cells run there, and questions are put to it over a pipe.
+"""The shell's subprocess, seen from outside: a student's cells run there, and questions are put to it over a
+pipe.
 
-A cell or a question that takes too long, or that kills the process, costs only itself: a new process runs the other
-cells again, and goes on.
+A cell or a question that takes too long, or that kills the process, costs only itself: a new process runs the
+other cells again, and goes on.
 """
 
+import contextlib
 import json
 import os
 import queue
@@ -13,7 +15,10 @@ import threading
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-START = "import sys; sys.path.insert(0, sys.argv[1]); from exercises.grader.serve import main; main(sys.argv[2])"
+START = (
+    "import sys; sys.path.insert(0, sys.argv[1]); from exercises.grader.serve import main; main(sys.argv[2])"
+)
+LONGEST_START = 60.0  # seconds until Python and NumPy are there; apart from the limit on each cell
 
 
 class Gone(Exception):
@@ -41,21 +46,23 @@ class StudentProcess:
         self.process.kill()
         self.process.wait()
         for pipe in (self.process.stdin, self.process.stdout):
-            try:
+            with contextlib.suppress(OSError):  # what was not yet written to a dead process
                 pipe.close()
-            except OSError:                 # what was not yet written to a dead process
-                pass
 
     def _start(self):
         """A new process with all cells run, but for those that ended an earlier one."""
         while True:
             self._spawn()
             try:
+                number = 0
+                self._exchange(json.dumps({"cell": "", "name": "start"}), LONGEST_START)
                 for number, source in enumerate(self.cells, 1):
                     if number not in self.skipped:
                         self._run_cell(number, source)
                 return
             except Gone as reason:
+                if number == 0:
+                    raise OSError(f"no Python process could be started for the check: {reason}") from None
                 self.skipped.add(number)
                 self.troubles.append((number, f"it was left out: {reason}"))
 
@@ -63,25 +70,34 @@ class StudentProcess:
         response = self._exchange(json.dumps({"cell": source, "name": f"cell {number}"}))
         error = json.loads(response)["error"]
         if error and number not in dict(self.troubles):
-            self.troubles.append((number, "\n".join([f"{error['kind']}: {error['message']}", *error["lines"]])))
+            self.troubles.append(
+                (number, "\n".join([f"{error['kind']}: {error['message']}", *error["lines"]]))
+            )
 
     def _spawn(self):
         if hasattr(self, "process"):
             self.close()
-        environment = dict(os.environ, MPLBACKEND="Agg", OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", PYTHONUTF8="1")
-        self.process = subprocess.Popen([sys.executable, "-c", START, str(ROOT), self.unit], cwd=self.folder,
-                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment,
-                                        encoding="utf-8")
+        environment = dict(
+            os.environ, MPLBACKEND="Agg", OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1", PYTHONUTF8="1"
+        )
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", START, str(ROOT), self.unit],
+            cwd=self.folder,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            env=environment,
+            encoding="utf-8",
+        )
         self.lines = queue.Queue()
         threading.Thread(target=_read_all, args=(self.process.stdout, self.lines), daemon=True).start()
 
-    def _exchange(self, text):
+    def _exchange(self, text, limit=None):
         try:
             self.process.stdin.write(text + "\n")
             self.process.stdin.flush()
-            line = self.lines.get(timeout=self.limit)
+            line = self.lines.get(timeout=limit or self.limit)
         except queue.Empty:
-            raise Gone(f"it took longer than {self.limit:g} s") from None
+            raise Gone(f"it took longer than {limit or self.limit:g} s") from None
         except OSError:
             line = None
         if line is None:

@@ -1,8 +1,10 @@
 """The student's side: looks functions up by name, calls them, sends back what they return.
 
-A request is one line of JSON text, {"calls": [{"function": name, "arguments": [...]}, ...]}, and so is the response,
-{"replies": [{"value": ...} or {"error": {"kind", "message", "lines"}}, ...]}. Each call has its own fresh copies of the
-arguments, since they are read from the text anew, and random generators set to the same state: no call can spoil another.
+A request is one line of JSON text, {"calls": [{"function": name, "arguments": [...]}, ...]}, and so is the
+response,
+{"replies": [{"value": ...} or {"error": {"kind", "message", "lines"}}, ...]}. Each call has its own fresh
+copies of the arguments, since they are read from the text anew, and random generators set to the same state:
+no call can spoil another.
 """
 
 import contextlib
@@ -20,8 +22,10 @@ import numpy as np
 from exercises.grader.replies import BadReply, pack, unpack
 
 OWN_FOLDER = str(Path(__file__).resolve().parent)
-LIBRARIES = tuple({str(Path(sysconfig.get_path(name)).resolve()) for name in ("stdlib", "purelib", "platlib")})
-MOST_PRINTED = 400       # characters of what a function printed that go into a report
+LIBRARIES = tuple(
+    {str(Path(sysconfig.get_path(name)).resolve()) for name in ("stdlib", "purelib", "platlib")}
+)
+MOST_PRINTED = 400  # characters of what a function printed that go into a report
 
 
 class Worker:
@@ -33,7 +37,9 @@ class Worker:
     def answer(self, text):
         calls = json.loads(text)["calls"]
         with _generators_put_back():
-            return json.dumps({"replies": [self._reply(call, i) for i, call in enumerate(calls)]}, allow_nan=False)
+            return json.dumps(
+                {"replies": [self._reply(call, i) for i, call in enumerate(calls)]}, allow_nan=False
+            )
 
     def _reply(self, call, number):
         printed = io.StringIO()
@@ -41,14 +47,14 @@ class Worker:
             function = self._function(call["function"])
             arguments = [unpack(argument, self._resolve) for argument in call["arguments"]]
             random.seed(number)
-            np.random.seed(number)
+            np.random.seed(number)  # noqa: NPY002 (students may use the old one)
             with _quiet(printed):
                 reply = {"value": pack(function(*arguments))}
         except KeyboardInterrupt:
-            raise                                       # the student pressed Stop: that ends the check
+            raise  # the student pressed Stop: that ends the check
         except BadReply as error:
             reply = {"error": {"kind": "answer", "message": str(error), "lines": []}}
-        except BaseException as error:                  # SystemExit too: exit() in a function ends that call alone
+        except BaseException as error:  # SystemExit too: exit() in a function ends that call alone
             reply = {"error": describe(error)}
         if printed.getvalue():
             reply["printed"] = printed.getvalue()[:MOST_PRINTED]
@@ -62,7 +68,9 @@ class Worker:
     def _function(self, name):
         function = self.namespace.get(name)
         if not callable(function):
-            state = "is not defined" if function is None else f"is not a function but a {type(function).__name__}"
+            state = (
+                "is not defined" if function is None else f"is not a function but a {type(function).__name__}"
+            )
             raise BadReply(f"{name} {state}: run (or mend) the cell that defines it")
         return function
 
@@ -70,19 +78,19 @@ class Worker:
 @contextlib.contextmanager
 def _quiet(printed):
     with warnings.catch_warnings(), contextlib.redirect_stdout(printed), contextlib.redirect_stderr(printed):
-        warnings.simplefilter("ignore")                 # an overflow shows in the answer; its warning only floods the cell
+        warnings.simplefilter("ignore")  # an overflow shows in the answer; its warning only floods the cell
         yield
 
 
 @contextlib.contextmanager
 def _generators_put_back():
     """The student's own random numbers go on after a check as if there had been none."""
-    states = random.getstate(), np.random.get_state()
+    states = random.getstate(), np.random.get_state()  # noqa: NPY002
     try:
         yield
     finally:
         random.setstate(states[0])
-        np.random.set_state(states[1])
+        np.random.set_state(states[1])  # noqa: NPY002
 
 
 def describe(error):
@@ -95,9 +103,13 @@ def describe(error):
         lines.append(f"line {error.lineno}: {error.text.strip()}")
     try:
         message = str(error)
-    except Exception:                                   # an exception class whose __str__ raises
+    except Exception:  # an exception class whose __str__ raises
         message = ""
-    return {"kind": type(error).__name__[:80], "message": message[:500], "lines": [line[:200] for line in lines[-4:]]}
+    return {
+        "kind": type(error).__name__[:80],
+        "message": message[:500],
+        "lines": [line[:200] for line in lines[-4:]],
+    }
 
 
 def _is_ours(filename):

@@ -14,7 +14,7 @@ given, check = load("02")
 def plate(outline, holes, density):
     """Mass, centre of mass and moment of inertia about that centre, of a plate with holes."""
     signs = np.array([1] + [-1] * len(holes))
-    areas, centres, seconds = zip(*(given.polygon(corners) for corners in (outline, *holes)))
+    areas, centres, seconds = zip(*(given.polygon(corners) for corners in (outline, *holes)), strict=True)
     masses = density * signs * np.array(areas)
     mass = masses.sum()
     centre = masses @ np.array(centres) / mass
@@ -63,6 +63,7 @@ def march(step, rate, y, dt, steps):
 # %%
 def flip_time(inertia, wheel, omega, dt, longest):
     """When the second component of Ω first changes its sign; math.inf if it does not until `longest`."""
+
     def rate(t, y):
         return gyrostat_rate(y, inertia, wheel, np.zeros(3))
 

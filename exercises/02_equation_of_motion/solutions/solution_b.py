@@ -40,12 +40,16 @@ def gyrostat_rate(omega, inertia, wheel, torque):
 
 # %%
 def air_force(velocity, spin, wind, drag, magnus):
-    ux, uy, uz = (v - w for v, w in zip(velocity, wind))
+    ux, uy, uz = (v - w for v, w in zip(velocity, wind, strict=True))
     speed = (ux * ux + uy * uy + uz * uz) ** 0.5
     sx, sy, sz = spin
-    return np.array([magnus * (sy * uz - sz * uy) - drag * speed * ux,
-                     magnus * (sz * ux - sx * uz) - drag * speed * uy,
-                     magnus * (sx * uy - sy * ux) - drag * speed * uz])
+    return np.array(
+        [
+            magnus * (sy * uz - sz * uy) - drag * speed * ux,
+            magnus * (sz * ux - sx * uz) - drag * speed * uy,
+            magnus * (sx * uy - sy * ux) - drag * speed * uz,
+        ]
+    )
 
 
 # %%
@@ -55,9 +59,9 @@ table = [[], [0.5], [-1.0, 2.0]]
 
 def kutta_step(rate, t, y, dt):
     slopes = []
-    for node, row in zip(nodes, table):
-        slopes.append(rate(t + node * dt, y + dt * sum(a * k for a, k in zip(row, slopes))))
-    return y + dt * sum(weight * k for weight, k in zip(weights, slopes))
+    for node, row in zip(nodes, table, strict=True):
+        slopes.append(rate(t + node * dt, y + dt * sum(a * k for a, k in zip(row, slopes, strict=True))))
+    return y + dt * sum(weight * k for weight, k in zip(weights, slopes, strict=True))
 
 
 # %%

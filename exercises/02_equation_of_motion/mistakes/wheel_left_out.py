@@ -1,0 +1,8 @@
+# Mistake: the wheel's angular momentum does not take part in the gyroscopic term.
+# Loses: gyrostat_rate, flip_time
+# Says: gyrostat_rate: wheel's angular momentum h is missing
+# ruff: noqa: F821 (names that are not defined here are solution_a's)
+
+# %%
+def gyrostat_rate(omega, inertia, wheel, torque):
+    return np.linalg.solve(inertia, torque - np.cross(omega, inertia @ omega))
