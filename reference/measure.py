@@ -71,20 +71,25 @@ def fitted_order(dts, errors):
 
 
 def _before_plateau(dts, errors):
-    """Indices (finest four) of the points that still follow a power law; dts falling."""
+    """Indices (at most the finest four) of the points that still follow a power law; dts falling."""
     usable = np.isfinite(errors) & (errors > 0)
+    if not usable.any():
+        return np.array([], int)
     # An overflow at a coarse step comes first and says nothing; a zero error at a fine one is below rounding.
-    first = int(np.argmax(usable)) if usable.any() else len(errors)
-    kept, steepest = [first] if usable.any() else [], 0.0
-    for i in range(first + 1, len(errors)):
+    kept, steepest = [int(np.argmax(usable))], 0.0
+    for i in range(kept[0] + 1, len(errors)):
         if not usable[i]:
             break
         slope = np.log(errors[i - 1] / errors[i]) / np.log(dts[i - 1] / dts[i])
-        if slope <= 0 or slope < steepest / 2:
+        if slope < max(0.0, steepest / 2):
             break
         steepest = max(steepest, slope)
         kept.append(i)
-    return np.array(kept[-4:], int)
+    beyond = errors[kept[-1] + 1 :]
+    # The last points before the plateau hold a share of rounding too: at thirty times its level, some 3 %.
+    plateau = 30 * np.median(beyond) if len(beyond) and np.isfinite(beyond).all() else 0.0
+    clean = [i for i in kept if errors[i] > plateau]
+    return np.array((clean if len(clean) >= 2 else kept)[-4:], int)
 
 
 def period(time, signal):
