@@ -1,7 +1,7 @@
 """The reference: a small physics engine to read, in the order of the lecture.
 
-Start with ``Scene`` (what there is), ``simulate`` (run it) and ``model`` (what will be built). Data flows one way:
-scene → bodies → forces → step → trajectory → measure → picture.
+Start with ``Scene`` (what there is), ``simulate`` (run it) and ``model`` (what will be built). Data flows one
+way: scene → bodies → forces → step → trajectory → measure → picture.
 
 Slides S3–S18; lectures/index.md.
 """
@@ -12,6 +12,17 @@ from .simulators import Simulation, model, simulate
 from .trajectory import Trajectory
 
 __all__ = [
-    "Box", "Capsule", "Disc", "Plane", "Point", "Polygon", "Scene", "Simulation", "Sphere", "Trajectory", "Unsupported",
-    "model", "simulate",
+    "Box",
+    "Capsule",
+    "Disc",
+    "Plane",
+    "Point",
+    "Polygon",
+    "Scene",
+    "Simulation",
+    "Sphere",
+    "Trajectory",
+    "Unsupported",
+    "model",
+    "simulate",
 ]

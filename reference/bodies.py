@@ -1,10 +1,10 @@
 """The state of the bodies as arrays, the mass matrix M, and the equation of motion M u̇ = f.
 
-``Bodies(scene)`` lays a scene out for computing. Only what moves is in the state: bodies that rotate come first, then
-points; what is static has no velocity and becomes part of the constants. A rotating body's frame is turned to its
-principal axes, so that its inertia is three numbers.
+Only what moves is in the state: bodies that rotate come first, then points; what is static has no velocity. A
+rotating body's frame is turned to its principal axes, so that its inertia is three numbers.
 
-M is block diagonal: the mass for v, the world-frame inertia R I Rᵀ for ω. So M⁻¹ is applied body by body, never formed.
+M is block diagonal: the mass for v, the world-frame inertia R I Rᵀ for ω. So M⁻¹ is applied body by body,
+never formed.
 
 Slides S4, S9; lectures/02_equation_of_motion.md.
 """
@@ -14,21 +14,27 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiled import compiled
-from .inertia import principal_axes
 from .rotation import (
-    add, conjugate, cross, multiply, normalise, over_arrays, quaternion, quaternion_rate, rotate, rotate_back,
-    rotate_in_plane, store, store_quaternion, vector,
+    add,
+    cross,
+    normalise,
+    quaternion,
+    quaternion_rate,
+    rotate,
+    rotate_back,
+    store,
+    store_quaternion,
+    vector,
 )
-from .shapes import Point
 
 
 class State(NamedTuple):
     """What changes: views into one flat vector y = (x, q, u). m bodies move, the first r of them rotate.
 
-    x (m, d) m; q (r, 4), or (r, 1) angles in the plane; u: all velocities, v and ω stacked; v (m, d) m/s; ω (r, 3) or
-    (r, 1) rad/s; all in the world frame. A rate of change, and a force, have the same layout.
-    L (r, 3), or (0, 3) in the plane: the angular momentum of each body about its centre. ω tells it too; integrators
-    that keep it to the last bit carry it from step to step, the others leave it alone.
+    x (m, d) m; q (r, 4), or (r, 1) angles in the plane; u: all velocities, v and ω stacked; v (m, d) m/s; ω
+    (r, 3) or (r, 1) rad/s; all in the world frame. A rate of change, and a force, have the same layout.
+    L (r, 3), or (0, 3) in the plane: the angular momentum of each body about its centre. ω tells it too;
+    integrators that keep it to the last bit carry it from step to step, the others leave it alone.
     """
 
     y: np.ndarray
@@ -41,7 +47,7 @@ class State(NamedTuple):
 
 
 class System(NamedTuple):
-    """What does not change. Bodies as in State; points on a body in its principal frame, fixed points in the world's."""
+    """What does not change. Bodies as in State; points on a body are in its principal frame."""
 
     mass: np.ndarray  # (m,) kg
     inertia: np.ndarray  # (r, 3) principal moments, or (r, 1), kg m²
@@ -63,7 +69,8 @@ def make_state(m, r, d):
     orientation, spin = (4, 3) if d == 3 else (1, 1)
     i, j, k = m * d, m * d + r * orientation, 2 * m * d + r * orientation
     y = np.zeros(k + r * spin)
-    x, q, v, ω = y[:i].reshape((m, d)), y[i:j].reshape((r, orientation)), y[j:k].reshape((m, d)), y[k:].reshape((r, spin))
+    x, q = y[:i].reshape((m, d)), y[i:j].reshape((r, orientation))
+    v, ω = y[j:k].reshape((m, d)), y[k:].reshape((r, spin))
     return State(y, x, q, y[j:], v, ω, np.zeros((r if d == 3 else 0, 3)))
 
 
@@ -87,7 +94,7 @@ def divided(L, I):
 
 @compiled
 def add_gyroscopic_torque(system, state, τ):
-    """τ −= ω × I ω, the inertial part of f_e (S4): in the world frame the inertia tensor turns with the body."""
+    """τ −= ω × I ω, the inertial part of f_e (S4): in the world frame, I turns with the body."""
     if planar(state):
         return
     for i in range(len(state.q)):
@@ -98,7 +105,7 @@ def add_gyroscopic_torque(system, state, τ):
 
 @compiled
 def solve_mass(system, q, f, τ):
-    """M⁻¹ (f, τ), in place: force to acceleration, torque to angular acceleration, impulse to change of velocity."""
+    """M⁻¹ (f, τ), in place: a force becomes an acceleration, an impulse a change of velocity."""
     for i in range(len(f)):
         for k in range(f.shape[1]):
             f[i, k] /= system.mass[i]
@@ -129,124 +136,3 @@ def normalise_all(state):
     if not planar(state):
         for i in range(len(state.q)):
             store_quaternion(state.q, i, normalise(quaternion(state.q, i)))
-
-
-class Bodies:
-    """A scene laid out as arrays: ``system``, ``state()``, and the way back to bodies in the order they were added.
-
-    n bodies in all: mass (n,), 0 for the static; source_mass (n,), all that attracts; inertia (n, 3, 3) or (n,), body
-    frame, 0 for what does not rotate.
-    """
-
-    def __init__(self, scene):
-        bodies, self.dimension = scene.bodies, scene.dimension
-        moving = [i for i, body in enumerate(bodies) if not body.static]
-        rotating = [i for i in moving if not isinstance(bodies[i].shape, Point)]
-        self.rotating = np.array(rotating, dtype=int)
-        self.moving = np.array(rotating + [i for i in moving if isinstance(bodies[i].shape, Point)], dtype=int)
-        self.slot = {int(i): k for k, i in enumerate(self.moving)}  # body's number → row of the state
-        n, d = len(bodies), self.dimension
-        self.position = np.array([body.position for body in bodies]).reshape(n, d)
-        self.orientation = np.array([body.orientation for body in bodies]).reshape((n, 4) if d == 3 else n)
-        self.velocity = np.array([body.velocity for body in bodies]).reshape(n, d)
-        self.angular_velocity = np.array([body.angular_velocity for body in bodies]).reshape((n, 3) if d == 3 else n)
-        self.source_mass = np.array([body.mass for body in bodies])
-        self.mass = np.array([0.0 if body.static else body.mass for body in bodies])
-        self.inertia = np.zeros((n, 3, 3) if d == 3 else n)
-        for i in rotating:
-            self.inertia[i] = bodies[i].inertia
-        self.gravity, self.gravitation = scene.gravity, scene.gravitation
-        self._turn_to_principal_axes()
-        self._lay_out_springs(scene.springs)
-        self.system = self._system(scene)
-
-    def state(self, position=None, orientation=None, velocity=None, angular_velocity=None):
-        """The State (see there) of all bodies given in the scene's order; None: as at the scene's start."""
-        state = make_state(len(self.moving), len(self.rotating), self.dimension)
-        state.x[:] = (self.position if position is None else position)[self.moving]
-        state.v[:] = (self.velocity if velocity is None else velocity)[self.moving]
-        q = (self.orientation if orientation is None else orientation)[self.rotating]
-        state.q[:] = over_arrays(multiply)(q, self.principal) if self.dimension == 3 else q[:, None]
-        spin = self.angular_velocity if angular_velocity is None else angular_velocity
-        state.ω[:] = spin[self.rotating].reshape(state.ω.shape)
-        if self.dimension == 3:
-            in_principal = over_arrays(rotate)(over_arrays(conjugate)(state.q), state.ω)
-            state.L[:] = over_arrays(rotate)(state.q, self.moments * in_principal)
-        return state
-
-    def unpack(self, y):
-        """Position (T, n, d), orientation (T, n, 4) or (T, n), velocity (T, n, d), angular velocity (T, n, 3) or (T, n).
-
-        y (T, size): records of ``State.y``. Static bodies are where the scene put them, at rest.
-        """
-        T, m, r, d = len(y), len(self.moving), len(self.rotating), self.dimension
-        x, q, v, ω = np.split(y, np.cumsum([m * d, r * (4 if d == 3 else 1), m * d]), axis=1)
-        result = [np.repeat(a[None], T, axis=0) for a in (self.position, self.orientation, self.velocity, self.angular_velocity)]
-        result[0][:, self.moving] = x.reshape(T, m, d)
-        result[2][:, self.moving] = v.reshape(T, m, d)
-        if d == 3:
-            q = q.reshape(T, r, 4)
-            if self.turned:
-                q = over_arrays(multiply)(q, over_arrays(conjugate)(self.principal))
-            result[1][:, self.rotating], result[3][:, self.rotating] = q, ω.reshape(T, r, 3)
-        else:
-            result[1][:, self.rotating], result[3][:, self.rotating] = q, ω
-        return tuple(result)
-
-    def _turn_to_principal_axes(self):
-        """Each rotating body's principal moments, and the quaternion principal frame → body frame."""
-        r = len(self.rotating)
-        if self.dimension == 2:
-            self.moments, self.principal, self.turned = self.inertia[self.rotating].reshape(r, 1), None, False
-            return
-        axes = [principal_axes(self.inertia[i]) for i in self.rotating]
-        self.moments = np.array([moments for moments, _ in axes]).reshape(r, 3)
-        self.principal = np.array([q for _, q in axes]).reshape(r, 4)
-        self.turned = bool(np.any(self.principal[:, 0] != 1))
-
-    def _lay_out_springs(self, springs):
-        """Each spring's two ends as (body's number or None, point): in that body's frame, or in the world's."""
-        self.spring_ends = [
-            [(i, point if i is None else self._in_body(i, point)) for i, point in ends]
-            for ends in (((s.a, s.point_a), (s.b, s.point_b)) for s in springs)
-        ]
-
-    def _in_body(self, i, point):
-        """A point (d,) given in world coordinates at the start, in the frame of body i."""
-        turn = over_arrays(rotate) if self.dimension == 3 else rotate_in_plane
-        q = self.orientation[i]
-        return turn(q * [1, -1, -1, -1] if self.dimension == 3 else -q, point - self.position[i])
-
-    def _spring_arrays(self, springs):
-        """The System's arrays: what is fixed to a static body is fixed in the world, the rest in principal frames."""
-        s, d = len(springs), self.dimension
-        slots, points = np.full((s, 2), -1), np.zeros((s, 2, d))
-        for row, (spring, ends) in enumerate(zip(springs, self.spring_ends, strict=True)):
-            for k, (i, point) in enumerate(ends):
-                slot = slots[row, k] = self.slot.get(i, -1)
-                if slot < 0:
-                    point = (spring.point_a, spring.point_b)[k]
-                elif d == 3 and slot < len(self.rotating):
-                    point = over_arrays(rotate)(self.principal[slot] * [1, -1, -1, -1], point)
-                points[row, k] = point
-        law = np.array([[spring.stiffness, spring.damping, spring.length] for spring in springs]).reshape(s, 3)
-        return slots, points, law
-
-    def _system(self, scene):
-        spring_bodies, spring_points, spring_law = self._spring_arrays(scene.springs)
-        drags = {self.slot[i]: law for i, law in scene.drags.items() if i in self.slot}
-        attracting = [i for i, body in enumerate(scene.bodies) if body.static and body.mass and scene.gravitation]
-        return System(
-            mass=self.mass[self.moving],
-            inertia=self.moments,
-            gravity=self.gravity,
-            spring_bodies=spring_bodies,
-            spring_points=spring_points,
-            spring_law=spring_law,
-            drag_bodies=np.array(list(drags), dtype=int),
-            drag_law=np.array(list(drags.values()), dtype=float).reshape(-1, 2),
-            gravitation=self.gravitation,
-            fixed_masses=self.source_mass[attracting],
-            fixed_positions=self.position[attracting],
-            velocity_dependent=bool(drags) or bool(np.any(spring_law[:, 1])) or bool(scene.user_forces),
-        )

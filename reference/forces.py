@@ -1,8 +1,8 @@
-"""The external forces f_e: gravity, springs and dampers, drag, gravitation between bodies; and their potential energy.
+"""The external forces f_e: gravity, springs and dampers, drag, gravitation; and their potential energy.
 
-Each force is one kernel that adds to f (m, d) in N and τ (r, 3) or (r, 1) in N m, about the centres of mass, world
-frame. A force that the scene does not have is a loop over nothing. The gyroscopic term, the inertial part of f_e, is
-in ``bodies``, since it needs only M.
+Each force is one kernel that adds to f (m, d) in N and τ (r, 3) or (r, 1) in N m, about the centres of mass,
+world frame. A force that the scene does not have is a loop over nothing. The gyroscopic term, the inertial
+part of f_e, is in ``bodies``, since it needs only M.
 
 Slide S4; lectures/02_equation_of_motion.md.
 """
@@ -35,7 +35,7 @@ def add_gravity(system, f):
 
 @compiled
 def attachment(state, i, points, s, end):
-    """Arm, position and velocity, three components each, of an end of spring s, on body i (−1: fixed in the world)."""
+    """Arm, position and velocity, three components each, of an end of spring s, on body i (−1: the world)."""
     d = state.x.shape[1]
     p = (points[s, end, 0], points[s, end, 1], points[s, end, 2] if d == 3 else 0.0)
     if i < 0:
@@ -74,7 +74,7 @@ def apply_at(f, τ, i, arm, force):
 
 @compiled
 def add_springs(system, state, f, τ):
-    """k (|Δ| − length) + c d|Δ|/dt along the spring, on both ends; nothing where the ends coincide: no direction."""
+    """k (|Δ| − length) + c d|Δ|/dt along the spring, on both ends; 0 where they coincide: no direction."""
     for s in range(len(system.spring_law)):
         a, b = system.spring_bodies[s, 0], system.spring_bodies[s, 1]
         arm_a, p_a, v_a = attachment(state, a, system.spring_points, s, 0)
@@ -116,7 +116,8 @@ def add_gravitation(system, state, f):
                 f[i, k] += pull
                 f[j, k] -= pull
         for j in range(len(system.fixed_masses)):
-            scale = G * system.mass[i] * system.fixed_masses[j] * inverse_cube(state.x, i, system.fixed_positions, j)
+            strength = G * system.mass[i] * system.fixed_masses[j]
+            scale = strength * inverse_cube(state.x, i, system.fixed_positions, j)
             for k in range(d):
                 f[i, k] += scale * (system.fixed_positions[j, k] - state.x[i, k])
 
@@ -131,9 +132,10 @@ def inverse_cube(a, i, b, j):
 
 
 def with_user_forces(bodies, user_forces, public_state):
-    """The external force plus the user's own: a plain Python function with the signature of ``external_force``.
+    """The external force plus the user's own: a plain Python function, called like ``external_force``.
 
-    public_state(t, state): what the user's f(t, state) is given. Raises ValueError where f returns the wrong shapes.
+    public_state(t, state): what the user's f(t, state) is given. Raises ValueError where f returns the wrong
+    shapes.
     """
     n, d = len(bodies.mass), bodies.dimension
     shapes = (n, d), ((n, 3) if d == 3 else (n,))
@@ -149,8 +151,8 @@ def with_user_forces(bodies, user_forces, public_state):
                 added = []
             if [part.shape for part in added] != list(shapes):
                 raise ValueError(
-                    f"f(t, state) must return a force of shape {shapes[0]} and a torque of shape {shapes[1]}, "
-                    f"but {getattr(user_force, '__name__', user_force)} returned {answer!r}"
+                    f"f(t, state) must return a force of shape {shapes[0]} and a torque of shape "
+                    f"{shapes[1]}, but {getattr(user_force, '__name__', user_force)} returned {answer!r}"
                 )
             f += added[0][bodies.moving]
             τ += added[1][bodies.rotating].reshape(τ.shape)
@@ -177,7 +179,7 @@ def potential_energy(bodies, position, orientation):
 
 
 def _world_point(position, orientation, i, arm):
-    """Where (T, d) the point ``arm`` (d,), body frame, of body i is; None: ``arm`` itself, fixed in the world."""
+    """Where (T, d) the point ``arm`` (d,), in body i's frame, is; i None: ``arm`` itself, in the world."""
     if i is None:
         return arm
     turn = over_arrays(rotate) if len(arm) == 3 else rotate_in_plane

@@ -1,8 +1,10 @@
 """Inertia: the parallel-axis theorem, bodies made of parts, principal axes.
 
-In space an inertia is a tensor (3, 3), in the plane a number; both in kg m², about the centre of mass unless said.
+In space an inertia is a tensor (3, 3), in the plane a number; both in kg m², about the centre of mass unless
+said.
 
-Slide S4; lectures/02_equation_of_motion.md. Source: Goldstein, Classical Mechanics (1980), sections 5-3 and 5-4.
+Slide S4; lectures/02_equation_of_motion.md. Source: Goldstein, Classical Mechanics (1980), sections 5-3 and
+5-4.
 """
 
 import numpy as np
@@ -14,8 +16,8 @@ from .rotation import quaternion_of_matrix, rotation_matrix
 def parallel_axis(inertia, mass, offset):
     """The inertia about a point that lies ``offset`` from the centre of mass.
 
-    ``I + m (r·r 1 − r rᵀ)`` in space: inertia (3, 3), offset (3,). ``I + m r·r`` in the plane: inertia a number,
-    offset (2,).
+    ``I + m (r·r 1 − r rᵀ)`` in space: inertia (3, 3), offset (3,). ``I + m r·r`` in the plane: inertia a
+    number, offset (2,).
     """
     r = np.asarray(offset, dtype=float)
     if len(r) == 2:
@@ -26,9 +28,11 @@ def parallel_axis(inertia, mass, offset):
 def composite_inertia(masses, centres, inertias, orientations=None):
     """Mass, centre of mass and inertia about that centre of a body made of k rigid parts.
 
-    masses (k,); centres (k, 3) or (k, 2), in the body's frame; inertias (k, 3, 3) or (k,), each about its part's own
-    centre, in the part's own frame; orientations (k, 4): quaternions part → body, None where the frames are parallel.
-    A hole is a part of negative mass. Returns (mass, centre, inertia). Raises ValueError where the whole has no mass.
+    masses (k,); centres (k, 3) or (k, 2), in the body's frame; inertias (k, 3, 3) or (k,), each about its
+    part's own centre, in the part's own frame; orientations (k, 4): quaternions part → body, None where the
+    frames are parallel.
+    A hole is a part of negative mass. Returns (mass, centre, inertia). Raises ValueError where the whole has
+    no mass.
     """
     centres = np.asarray(centres, dtype=float)
     masses = inputs.array("masses", masses, (len(centres),))
@@ -59,10 +63,11 @@ def principal_axes(inertia):
 
 
 def checked_inertia(name, value):
-    """An inertia tensor (3, 3) from (3,) principal moments or a (3, 3) tensor that some rigid body could have.
+    """An inertia tensor (3, 3) from (3,) principal moments or a (3, 3) tensor that some rigid body could
+    have.
 
-    Raises ValueError: not symmetric, a moment that is not positive, or one larger than the other two together, which
-    no distribution of mass has (triangle inequality).
+    Raises ValueError: not symmetric, a moment that is not positive, or one larger than the other two
+    together, which no distribution of mass has (triangle inequality).
     """
     shape = (3,) if np.ndim(value) == 1 else (3, 3)
     given = inputs.array(name, value, shape)
@@ -76,7 +81,7 @@ def checked_inertia(name, value):
         raise ValueError(f"{name} must have positive principal moments, but they are {shown}")
     if moments[2] > (moments[0] + moments[1]) * (1 + 1e-9):
         raise ValueError(
-            f"{name} must obey the triangle inequality, no principal moment larger than the other two together, "
-            f"but its moments are {shown}"
+            f"{name} must obey the triangle inequality, no principal moment larger than the other two "
+            f"together, but its moments are {shown}"
         )
     return tensor

@@ -1,7 +1,8 @@
 """What a user may hand in: each check names the argument, the value it got and what would be right.
 
-Every public function that takes numbers from a user reads them through one of these, so that a mistake is met where
-it is made, and not as a NaN ten thousand steps later. Used by all units; lectures/02_equation_of_motion.md, slide S4.
+Every public function that takes numbers from a user reads them through one of these, so that a mistake is met
+where it is made, and not as a NaN ten thousand steps later. Used by all units;
+lectures/02_equation_of_motion.md, slide S4.
 """
 
 import math
@@ -40,7 +41,9 @@ def whole(name, value, *, least=0):
 
 
 def array(name, value, shape):
-    """A new float array of the given shape, all finite. Raises ValueError or TypeError, which name the argument."""
+    """A new float array of the given shape, all finite. Raises ValueError or TypeError, which name the
+    argument.
+    """
     try:
         result = np.array(value, dtype=float)
     except (TypeError, ValueError):
@@ -62,14 +65,21 @@ def direction(name, value, size):
 
 
 def unit_quaternion(name, value):
-    """A quaternion (w, x, y, z) of norm 1; what is off by less than 1e-6 is normalised, anything else refused."""
+    """A quaternion (w, x, y, z) of norm 1; what is off by less than 1e-6 is normalised, anything else
+    refused.
+    """
     q = array(name, value, (4,))
     norm = np.linalg.norm(q)
     if norm == 0:
-        raise ValueError(f"{name} must be a unit quaternion (w, x, y, z), but is zero: no rotation at all is (1, 0, 0, 0)")
+        raise ValueError(
+            f"{name} must be a unit quaternion (w, x, y, z), but is zero: no rotation at all is (1, 0, 0, 0)"
+        )
     if abs(norm - 1) > 1e-6:
         right = ", ".join(f"{c:.9g}" for c in q / norm)
-        raise ValueError(f"{name} must be a unit quaternion (w, x, y, z), but {value!r} has norm {norm:.6g}: give ({right})")
+        raise ValueError(
+            f"{name} must be a unit quaternion (w, x, y, z), but {value!r} has norm {norm:.6g}: "
+            f"give ({right})"
+        )
     return q / norm
 
 

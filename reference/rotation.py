@@ -1,13 +1,15 @@
 """Rotations as unit quaternions, and the matrix that takes ω to q̇.
 
-A quaternion is (w, x, y, z). It takes vectors from the body's frame to the world's: ``r_world = q ⊗ r_body ⊗ q*``.
+A quaternion is (w, x, y, z). It takes vectors from the body's frame to the world's: ``r_world = q ⊗ r_body ⊗
+q*``.
 Angular velocities ω are in the world frame, rad/s, unless the name says otherwise.
 
-The *kernels* work on components: they take tuples or arrays that are indexed along their first axis, and return
-tuples. They are what the compiled loops call. ``over_arrays`` turns one into a function of arrays (…, 4) and (…, 3).
+The *kernels* work on components: they take tuples or arrays that are indexed along their first axis, and
+return tuples. They are what the compiled loops call. ``over_arrays`` turns one into a function of arrays (…,
+4) and (…, 3).
 
-Slides S4, S9; lectures/02_equation_of_motion.md. Source: Diebel, Representing Attitude (2006); Hairer, Lubich &
-Wanner, Geometric Numerical Integration (2006), section VII.5.
+Slides S4, S9; lectures/02_equation_of_motion.md. Source: Diebel, Representing Attitude (2006); Hairer, Lubich
+& Wanner, Geometric Numerical Integration (2006), section VII.5.
 """
 
 import numpy as np
@@ -102,7 +104,9 @@ def quaternion_rate(q, ω):
 
 @compiled
 def exponential(φ):
-    """The quaternion of the rotation vector φ: by |φ| radians about φ. Its norm is 1 to rounding, for any φ."""
+    """The quaternion of the rotation vector φ: by |φ| radians about φ. Its norm is 1 to rounding, for
+    any φ.
+    """
     angle = np.sqrt(φ[0] ** 2 + φ[1] ** 2 + φ[2] ** 2 + 1e-300)  # so that s is ½ at φ = 0, and not 0/0
     s = np.sin(angle / 2) / angle
     return np.cos(angle / 2), s * φ[0], s * φ[1], s * φ[2]
@@ -110,7 +114,9 @@ def exponential(φ):
 
 @compiled
 def cayley(φ):
-    """The quaternion of the Cayley map: about φ, by 2 atan(|φ|/2) radians; equals ``exponential`` to O(|φ|³)."""
+    """The quaternion of the Cayley map: about φ, by 2 atan(|φ|/2) radians; equals ``exponential`` to
+    O(|φ|³).
+    """
     w = 1 / np.sqrt(1 + 0.25 * (φ[0] ** 2 + φ[1] ** 2 + φ[2] ** 2))
     return w, 0.5 * w * φ[0], 0.5 * w * φ[1], 0.5 * w * φ[2]
 
@@ -120,6 +126,18 @@ def normalise(q):
     """q / |q|."""
     scale = 1 / np.sqrt(q[0] ** 2 + q[1] ** 2 + q[2] ** 2 + q[3] ** 2)
     return scale * q[0], scale * q[1], scale * q[2], scale * q[3]
+
+
+@compiled
+def solve3(a, b, c, r):
+    """x of the three equations a·x = r₀, b·x = r₁, c·x = r₂, by Cramer's rule."""
+    bc, ca, ab = cross(b, c), cross(c, a), cross(a, b)
+    determinant = a[0] * bc[0] + a[1] * bc[1] + a[2] * bc[2]
+    return (
+        (r[0] * bc[0] + r[1] * ca[0] + r[2] * ab[0]) / determinant,
+        (r[0] * bc[1] + r[1] * ca[1] + r[2] * ab[1]) / determinant,
+        (r[0] * bc[2] + r[1] * ca[2] + r[2] * ab[2]) / determinant,
+    )
 
 
 def over_arrays(kernel):
@@ -146,7 +164,8 @@ def rotate_in_plane(θ, r):
 def quaternion_rate_matrix(q):
     """E(q), the matrix that takes ω to q̇: ``q̇ = E(q) ω`` with ω in the world frame (S9).
 
-    q: (…, 4). Returns (…, 4, 3). Its columns are orthogonal to q, so q̇ never changes the norm, in exact arithmetic.
+    q: (…, 4). Returns (…, 4, 3). Its columns are orthogonal to q, so q̇ never changes the norm, in exact
+    arithmetic.
     """
     q = np.asarray(q, dtype=float)[..., None, :]
     return np.swapaxes(over_arrays(quaternion_rate)(q, np.eye(3)), -1, -2)
@@ -159,17 +178,21 @@ def rotation_matrix(q):
 
 
 def quaternion_of_matrix(R):
-    """The unit quaternion (4,), w ≥ 0, of a rotation matrix (3, 3). Source: Shepperd, J. Guidance 1 (1978) 223."""
+    """The unit quaternion (4,), w ≥ 0, of a rotation matrix (3, 3). Source: Shepperd, J. Guidance 1
+    (1978) 223.
+    """
     R = np.asarray(R, dtype=float)
     xx, yy, zz = np.diag(R)
     squares = 0.25 * np.array([1 + xx + yy + zz, 1 + xx - yy - zz, 1 - xx + yy - zz, 1 - xx - yy + zz])
     k = int(np.argmax(squares))  # divide by the largest component, for accuracy
-    sums = np.array([
-        [4 * squares[0], R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]],
-        [R[2, 1] - R[1, 2], 4 * squares[1], R[0, 1] + R[1, 0], R[0, 2] + R[2, 0]],
-        [R[0, 2] - R[2, 0], R[0, 1] + R[1, 0], 4 * squares[2], R[1, 2] + R[2, 1]],
-        [R[1, 0] - R[0, 1], R[0, 2] + R[2, 0], R[1, 2] + R[2, 1], 4 * squares[3]],
-    ])
+    sums = np.array(
+        [
+            [4 * squares[0], R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]],
+            [R[2, 1] - R[1, 2], 4 * squares[1], R[0, 1] + R[1, 0], R[0, 2] + R[2, 0]],
+            [R[0, 2] - R[2, 0], R[0, 1] + R[1, 0], 4 * squares[2], R[1, 2] + R[2, 1]],
+            [R[1, 0] - R[0, 1], R[0, 2] + R[2, 0], R[1, 2] + R[2, 1], 4 * squares[3]],
+        ]
+    )
     q = sums[k] / np.linalg.norm(sums[k])
     return q if q[0] >= 0 else -q
 

@@ -1,7 +1,7 @@
 """What a user declares: bodies, and the forces between them. Nothing is computed here.
 
-A scene holds what there is and no more; ``reference.model(scene)`` tells what will be built from it. SI units, world
-frame. Bodies are numbered from 0 in the order in which they were added.
+A scene holds what there is and no more; ``reference.model(scene)`` tells what will be built from it. SI
+units, world frame. Bodies are numbered from 0 in the order in which they were added.
 
 Slides S4–S6, S10; lectures/02_equation_of_motion.md.
 """
@@ -17,7 +17,7 @@ from .shapes import SHAPES, Plane, Point
 
 
 class Unsupported(ValueError):
-    """What was asked for can't be expressed by the chosen simulator, solver or engine; the message says what it lacks."""
+    """The simulator, solver or engine can't express what was asked for; the message says what it lacks."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +66,7 @@ class Pair:
 
 
 class Scene:
-    """Bodies and forces. ``gravity``, m/s², of three components makes a scene in space, of two one in the plane."""
+    """Bodies and forces. ``gravity``, m/s²: three components make a scene in space, two one in the plane."""
 
     def __init__(self, gravity=(0, 0, -9.81)):
         if np.size(gravity) not in (2, 3):
@@ -77,18 +77,34 @@ class Scene:
         self.gravitation = 0.0
         self.user_forces = []
 
-    def add(self, shape, *, mass=None, static=False, position=None, orientation=None, velocity=0, angular_velocity=0,
-            friction=0.5, restitution=0.0, inertia=None, group=None):
+    def add(
+        self,
+        shape,
+        *,
+        mass=None,
+        static=False,
+        position=None,
+        orientation=None,
+        velocity=0,
+        angular_velocity=0,
+        friction=0.5,
+        restitution=0.0,
+        inertia=None,
+        group=None,
+    ):
         """Add a body and return its number.
 
         shape: an instance of Sphere, Box, Capsule, Disc, Polygon, Plane or Point.
-        mass: kg; None: 1 kg. A static body needs none, but attracts others (``gravitate``) only if it has one.
+        mass: kg; None: 1 kg. A static body needs none, but attracts others (``gravitate``) only if it has
+        one.
         position: (d,) m, the centre of mass (a Plane: a point on it); None: the origin.
-        orientation: unit quaternion (w, x, y, z) body → world, or an angle in rad in the plane; None: no rotation.
-        velocity: (d,) m/s; angular_velocity: (3,) rad/s in the world frame, or a number in the plane; 0: at rest.
+        orientation: unit quaternion (w, x, y, z) body → world, or an angle in rad in the plane; None: no
+        rotation.
+        velocity: (d,) m/s; angular_velocity: (3,) rad/s in the world frame, or a number in the plane; 0: at
+        rest.
         friction ≥ 0; restitution 0 … 1.
-        inertia: kg m² about the centre, body frame: principal moments (3,) or a tensor (3, 3), a number in the plane;
-        None: the shape's own, filled evenly.
+        inertia: kg m² about the centre, body frame: principal moments (3,) or a tensor (3, 3), a number in
+        the plane; None: the shape's own, filled evenly.
         group: bodies with the same group, other than None, do not collide with each other.
 
         Raises TypeError and ValueError, which name the argument, its value and what would be right.
@@ -98,32 +114,44 @@ class Scene:
             raise TypeError(f"shape must be an instance of {names}, but is {shape!r}")
         d = self.dimension
         if d not in shape.dimensions:
-            raise ValueError(f"shape must fit this scene of {d} dimensions, but {shape!r} stands in {shape.dimensions[0]}")
+            raise ValueError(
+                f"shape must fit this scene of {d} dimensions, but {shape!r} stands in {shape.dimensions[0]}"
+            )
         if isinstance(shape, Plane) and mass is not None:
             raise ValueError(f"mass must be left out for a Plane, which is always static, but is {mass!r}")
         static = bool(static) or isinstance(shape, Plane)
-        mass = inputs.number("mass", (0 if static else 1) if mass is None else mass, **{"least" if static else "above": 0})
+        mass = inputs.number(
+            "mass", (0 if static else 1) if mass is None else mass, **{"least" if static else "above": 0}
+        )
         turns = not isinstance(shape, Point)
         body = Body(
-            shape, mass, static,
+            shape,
+            mass,
+            static,
             position=inputs.array("position", np.zeros(d) if position is None else position, (d,)),
             orientation=self._orientation(orientation, turns),
             velocity=self._motion("velocity", velocity, (d,), not static, "a static body"),
             angular_velocity=self._motion(
-                "angular_velocity", angular_velocity, (3,) if d == 3 else (), turns and not static,
-                "a static body" if turns else "a Point"),
+                "angular_velocity",
+                angular_velocity,
+                (3,) if d == 3 else (),
+                turns and not static,
+                "a static body" if turns else "a Point",
+            ),
             friction=inputs.number("friction", friction, least=0),
             restitution=self._restitution(restitution),
             inertia=self._inertia(shape, mass, inertia) if turns and not static else None,
             group=group,
         )
         if not turns and inertia is not None:
-            raise ValueError(f"inertia must be left out for a Point, which doesn't rotate, but is {inertia!r}")
+            raise ValueError(
+                f"inertia must be left out for a Point, which doesn't rotate, but is {inertia!r}"
+            )
         self.bodies.append(body)
         return len(self.bodies) - 1
 
     def pair(self, i, j, friction=None, restitution=None, collide=True):
-        """Say what holds between the bodies i and j: else the product of their frictions, the larger restitution."""
+        """Say what holds between bodies i and j: else the product of their frictions, the larger restitution."""
         i, j = self._number("i", i), self._number("j", j)
         if i == j:
             raise ValueError(f"j must be another body than i, but both are {i}")
@@ -132,7 +160,7 @@ class Scene:
         self.pairs[min(i, j), max(i, j)] = Pair(friction, restitution, bool(collide))
 
     def spring(self, a, b, stiffness, damping=0, length=None, point_a=None, point_b=None):
-        """A spring and damper in parallel between the bodies a and b (b None: the world, which needs ``point_b``).
+        """A spring and damper in parallel between the bodies a and b; b None: the world, at ``point_b``.
 
         stiffness: N/m; damping: N s/m, along the spring; length: at rest, m; None: the distance at the start.
         point_a, point_b: (d,) where it is fixed, world coordinates at the start; None: the centres of mass.
@@ -151,8 +179,14 @@ class Scene:
         distance = float(np.linalg.norm(ends[1] - ends[0]))
         length = distance if length is None else inputs.number("length", length, least=0)
         for end, i, point in (("point_a", a, ends[0]), ("point_b", b, ends[1])):
-            if i is not None and isinstance(self.bodies[i].shape, Point) and not np.array_equal(point, self.bodies[i].position):
-                raise ValueError(f"{end} must be the body's position, since body {i} is a Point, but is {point.tolist()}")
+            if (
+                i is not None
+                and isinstance(self.bodies[i].shape, Point)
+                and not np.array_equal(point, self.bodies[i].position)
+            ):
+                raise ValueError(
+                    f"{end} must be the body's position, since body {i} is a Point, but is {point.tolist()}"
+                )
         self.springs.append(Spring(a, b, stiffness, damping, length, *ends))
 
     def drag(self, i, linear, angular=0):
@@ -160,7 +194,9 @@ class Scene:
         i = self._number("i", i)
         linear, angular = inputs.number("linear", linear, least=0), inputs.number("angular", angular, least=0)
         if angular and isinstance(self.bodies[i].shape, Point):
-            raise ValueError(f"angular must be 0 for body {i}, a Point, which doesn't rotate, but is {angular!r}")
+            raise ValueError(
+                f"angular must be 0 for body {i}, a Point, which doesn't rotate, but is {angular!r}"
+            )
         before = self.drags.get(i, (0.0, 0.0))
         self.drags[i] = before[0] + linear, before[1] + angular
 
@@ -169,17 +205,18 @@ class Scene:
         self.gravitation = inputs.number("G", G, least=0)
 
     def force(self, f):
-        """Add the user's own force: ``f(t, state)`` returns the force (n, d) in N and the torque (n, 3) or (n,) in N m.
+        """Add the user's own force: ``f(t, state)`` returns a force and a torque for all n bodies.
 
-        Both for all n bodies, world frame; ``state`` has position, orientation, velocity and angular_velocity of all
-        bodies, and must not be changed. A run with such a force calls Python in each step, and is slower for it.
+        Force (n, d) in N, torque (n, 3) or (n,) in N m, world frame; ``state`` has position, orientation, velocity and angular_velocity
+        of all bodies, and must not be changed. A run with such a force calls Python in each step, and is
+        slower for it.
         """
         if not callable(f):
             raise TypeError(f"f must be a function f(t, state), but is {f!r}")
         self.user_forces.append(f)
 
     def colliding_pairs(self):
-        """The pairs (i, j), i < j, that could ever touch: not points, one group, both static, or told not to collide."""
+        """The pairs (i, j), i < j, that could ever touch: no points, not one group, not both static, …"""
         solid = [i for i, body in enumerate(self.bodies) if not isinstance(body.shape, Point)]
         for i, j in combinations(solid, 2):
             a, b = self.bodies[i], self.bodies[j]

@@ -1,10 +1,10 @@
 """The shapes a body can have, with their inertia.
 
-Lengths in m. A shape is fixed in its body's frame, its centre of mass at the origin. ``dimensions`` says whether it
-can stand in the plane (2), in space (3), or both.
+Lengths in m. A shape is fixed in its body's frame, its centre of mass at the origin. ``dimensions`` says
+whether it can stand in the plane (2), in space (3), or both.
 
-Slides S4, S10; lectures/02_equation_of_motion.md. Moments of inertia: Goldstein, Classical Mechanics (1980), chapter
-5; the stadium (the capsule in the plane) and the polygon by Green's theorem.
+Slides S4, S10; lectures/02_equation_of_motion.md. Moments of inertia: Goldstein, Classical Mechanics (1980),
+chapter 5; the stadium (the capsule in the plane) and the polygon by Green's theorem.
 """
 
 import math
@@ -63,7 +63,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Capsule:
-    """A cylinder of length 2 ``half_length`` with half balls on its ends, along the body's last axis (z; y in the plane)."""
+    """A cylinder of length 2 ``half_length`` with half balls on its ends; along z (y in the plane)."""
 
     radius: float
     half_length: float
@@ -127,8 +127,8 @@ class Disc:
 class Polygon:
     """A solid convex polygon in the plane; its vertices in order, either way round.
 
-    The vertices may be given from any origin: they are stored anticlockwise and relative to their centroid, which is
-    the body's centre of mass. Raises ValueError for fewer than 3 vertices, no area, or a dent.
+    The vertices may be given from any origin: they are stored anticlockwise and relative to their centroid,
+    which is the body's centre of mass. Raises ValueError for fewer than 3 vertices, no area, or a dent.
     """
 
     vertices: tuple
@@ -145,7 +145,9 @@ class Polygon:
         turns = _cross(edges, np.roll(edges, -1, axis=0))
         size = np.square(edges).sum()
         if abs(area) <= 1e-12 * size or turns.min() < -1e-12 * size or not _once_round(edges):
-            raise ValueError(f"vertices must go once round a convex polygon with an area, but are {self.vertices!r}")
+            raise ValueError(
+                f"vertices must go once round a convex polygon with an area, but are {self.vertices!r}"
+            )
         _set(self, vertices=tuple(map(tuple, (points - centroid).tolist())))
 
     def inertia(self, mass, dimension=2):

@@ -1,6 +1,7 @@
 """What a run leaves behind: the motion of all bodies, and what can be measured on it.
 
-Arrays only; a trajectory of ours and one of an engine are the same class, so whatever measures one measures the other.
+Arrays only; a trajectory of ours and one of an engine are the same class, so whatever measures one measures
+the other.
 
 Slides S9, S18; lectures/02_equation_of_motion.md.
 """
@@ -10,8 +11,8 @@ from functools import cached_property
 
 import numpy as np
 
-from .bodies import Bodies
 from .forces import potential_energy
+from .layout import Bodies
 from .rotation import rotation_matrix
 
 
@@ -31,8 +32,9 @@ class BodyState:
 
 @dataclass(frozen=True)
 class Contacts:
-    """The m contacts of one record. bodies (m, 2), lower number first; point (m, d); frame (m, d, d), rows n, t1, t2, n
-    from first to second; depth (m,); impulse (m, d) in that frame, N s, summed since the record before."""
+    """The m contacts of one record. bodies (m, 2), lower number first; point (m, d); frame (m, d, d), rows n,
+    t1, t2, n from first to second; depth (m,); impulse (m, d) in that frame, N s, summed since the record
+    before."""
 
     bodies: np.ndarray
     point: np.ndarray
@@ -42,7 +44,9 @@ class Contacts:
 
 
 class ContactHistory:
-    """The contacts of all records: ``history[k]`` is a ``Contacts`` of views into flat arrays; row offsets (T + 1,)."""
+    """The contacts of all records: ``history[k]`` is a ``Contacts`` of views into flat arrays; row
+    offsets (T + 1,).
+    """
 
     def __init__(self, offsets, *arrays):
         self.offsets, self.arrays = offsets, arrays
@@ -51,7 +55,9 @@ class ContactHistory:
     def empty(cls, records, d):
         """No contact in any of the records, in d dimensions."""
         shapes = (0, 2), (0, d), (0, d, d), (0,), (0, d)
-        return cls(np.zeros(records + 1, dtype=int), *(np.zeros(s, int if s == (0, 2) else float) for s in shapes))
+        return cls(
+            np.zeros(records + 1, dtype=int), *(np.zeros(s, int if s == (0, 2) else float) for s in shapes)
+        )
 
     def __len__(self):
         return len(self.offsets) - 1
@@ -63,12 +69,13 @@ class ContactHistory:
 
 @dataclass(frozen=True)
 class Trajectory:
-    """The motion of n bodies at T times: all bodies, the static ones too, in the order added; world frame, SI units.
+    """The motion of n bodies at T times: all bodies, the static ones too, in the order added; world frame, SI
+    units.
 
-    time (T,); position (T, n, d); orientation (T, n, 4) or (T, n) in the plane; velocity (T, n, d); angular_velocity
-    (T, n, 3) or (T, n); contacts[k], see ``Contacts``; status: "ok", or "diverged", after which there are no more
-    records; reason: a sentence; residual, iterations (T,): of the step's own equation, the worst since the record
-    before; settings: what was chosen, by whom.
+    time (T,); position (T, n, d); orientation (T, n, 4) or (T, n) in the plane; velocity (T, n, d);
+    angular_velocity (T, n, 3) or (T, n); contacts[k], see ``Contacts``; status: "ok", or "diverged", after
+    which there are no more records; reason: a sentence; residual, iterations (T,): of the step's own
+    equation, the worst since the record before; settings: what was chosen, by whom.
     """
 
     bodies: Bodies = field(repr=False)
@@ -92,7 +99,9 @@ class Trajectory:
     def energy(self):
         """Kinetic energy and the potential energy of gravity, springs and gravitation, J: (T,)."""
         kinetic = 0.5 * np.square(self.velocity).sum(axis=-1) @ self.bodies.mass
-        kinetic = kinetic + 0.5 * (self._spin * self.angular_velocity).reshape(len(self.time), -1).sum(axis=-1)
+        kinetic = kinetic + 0.5 * (self._spin * self.angular_velocity).reshape(len(self.time), -1).sum(
+            axis=-1
+        )
         return kinetic + potential_energy(self.bodies, self.position, self.orientation)
 
     def momentum(self):

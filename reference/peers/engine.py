@@ -13,7 +13,7 @@ from importlib import metadata
 import numpy as np
 
 from .. import inputs
-from ..bodies import Bodies
+from ..layout import Bodies
 from ..scene import Unsupported
 from ..simulators.simulate import count_steps
 from ..trajectory import BodyState, ContactHistory, Trajectory

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..bodies import Bodies
+from ..layout import Bodies
 from ..cases import CASES
 from ..cases.case import Catalogue
 from ..trajectory import ContactHistory, Trajectory

@@ -14,7 +14,7 @@ from ..shapes import Point
 
 @dataclass(frozen=True)
 class Term:
-    """One part of the model: how many there are, and floating-point operations for all of them in one evaluation."""
+    """One part of the model: how many there are, and the operations for all of them in one evaluation."""
 
     name: str
     count: int
@@ -25,8 +25,9 @@ class Term:
 class Model:
     """What ``simulate`` will build. ``print(model(scene))`` shows it as a table.
 
-    velocities: the length of u; terms: what is computed in each evaluation of the force; absent: what the scene does
-    not need, and so is not built; simulator, integrator: what is chosen where the user doesn't say.
+    velocities: the length of u; terms: what is computed in each evaluation of the force; absent: what the
+    scene does not need, and so is not built; simulator, integrator: what is chosen where the user doesn't
+    say.
     """
 
     dimension: int
@@ -42,7 +43,9 @@ class Model:
 
     @property
     def operations(self):
-        """Floating-point operations of a step, roughly: those of all terms, as often as the integrator evaluates them."""
+        """Floating-point operations of a step, roughly: those of all terms, as often as the
+        integrator evaluates them.
+        """
         return INTEGRATORS[self.integrator].evaluations * sum(term.operations for term in self.terms)
 
     def __str__(self):
@@ -70,7 +73,7 @@ def model(scene):
     if touching:
         i, j = touching
         raise Unsupported(
-            f"bodies {i} and {j} could touch, and no simulator of this course computes contact yet: put bodies that "
+            f"bodies {i} and {j} could touch, and no simulator here computes contact yet: put bodies that "
             f"should pass through each other in one group, or call scene.pair({i}, {j}, collide=False)"
         )
     moving = [body for body in scene.bodies if not body.static]
@@ -78,11 +81,22 @@ def model(scene):
     d, m, r = scene.dimension, len(moving), len(rotating)
     present, absent = _terms(scene, m, r)
     integrator, why = _integrator(scene, rotating)
-    return Model(d, m, r, len(scene.bodies) - m, m * d + r * (3 if d == 3 else 1), present, absent, "smooth", integrator, why)
+    return Model(
+        d,
+        m,
+        r,
+        len(scene.bodies) - m,
+        m * d + r * (3 if d == 3 else 1),
+        present,
+        absent,
+        "smooth",
+        integrator,
+        why,
+    )
 
 
 def _terms(scene, m, r):
-    """The terms that are there, and the names of those that are not. Operations are counted by hand in the kernels."""
+    """The terms that are there, and the names of those that are not. Operations: counted in the kernels."""
     d = scene.dimension
     space = d == 3
     pulls = m * (m - 1) // 2 + m * sum(body.static and body.mass > 0 for body in scene.bodies)
@@ -105,9 +119,14 @@ def _integrator(scene, rotating):
     """The integrator that suits the scene's forces, and why."""
     damped = scene.drags or scene.user_forces or any(spring.damping for spring in scene.springs)
     position_dependent = scene.springs or scene.gravitation
-    gyroscopic = scene.dimension == 3 and any(np.ptp(np.linalg.eigvalsh(body.inertia)) > 0 for body in rotating)
+    gyroscopic = scene.dimension == 3 and any(
+        np.ptp(np.linalg.eigvalsh(body.inertia)) > 0 for body in rotating
+    )
     if damped:
         return "rk4", "forces may depend on velocity, so order 4 by Runge–Kutta"
     if position_dependent or gyroscopic:
-        return "splitting4", "no force depends on velocity, so order 4 by splitting, which keeps energy over long runs"
+        return (
+            "splitting4",
+            "no force depends on velocity, so order 4 by splitting, which keeps energy over long runs",
+        )
     return "splitting", "all forces are constant, so a splitting step is exact"

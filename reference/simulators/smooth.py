@@ -1,7 +1,9 @@
-"""The smooth simulator: no contact is possible, so an integrator alone moves the bodies, to any order it likes.
+"""The smooth simulator: no contact is possible, so an integrator alone moves the bodies, to any order it
+likes.
 
-``run`` is the whole simulation: it repeats the integrator's step (S9). It is compiled together with the step and the
-force; a force that is the user's own Python function makes ``run`` and the step plain Python around compiled parts.
+``run`` is the whole simulation: it repeats the integrator's step (S9). It is compiled together with the step
+and the force; a force that is the user's own Python function makes ``run`` and the step plain Python around
+compiled parts.
 
 Slides S4, S9; lectures/02_equation_of_motion.md.
 """
@@ -18,7 +20,8 @@ from ..trajectory import BodyState
 
 @compiled
 def run(step, system, state, t, h, steps, every, max_iterations, tolerance, record, solves):
-    """Do so many steps of h from time t; every so many, and after the last, write y and the solves' worst into a row.
+    """Do so many steps of h from time t; every so many, and after the last, write y and the solves' worst
+    into a row.
 
     record (rows, size of y); solves (rows, 2): iterations and residual; no rows: nothing is recorded.
     Returns how many steps were done: fewer than ``steps`` if the state stopped being finite.
@@ -40,10 +43,10 @@ def run(step, system, state, t, h, steps, every, max_iterations, tolerance, reco
 @compiled
 def all_finite(y):
     """Whether no entry is inf or nan."""
+    total = 0.0
     for k in range(len(y)):
-        if not np.isfinite(y[k]):
-            return False
-    return True
+        total += 0 * y[k]  # nan, if y[k] is inf or nan
+    return total == 0
 
 
 class Smooth:
@@ -62,7 +65,9 @@ class Smooth:
             self.run = bind(run, method.bind(external_force))
 
     def advance(self, t, h, steps, every=1, record=None, solves=None):
-        """So many steps of h from time t; returns how many were done before the state stopped being finite."""
+        """So many steps of h from time t; returns how many were done before the state stopped being
+        finite.
+        """
         record = np.empty((0, self.state.y.size)) if record is None else record
         solves = np.empty((0, 2)) if solves is None else solves
         return self.run(self.bodies.system, self.state, t, h, steps, every, *self.limits, record, solves)
@@ -73,4 +78,6 @@ class Smooth:
 
     def set_state(self, start):
         """Take over a ``BodyState``."""
-        self.state = self.bodies.state(start.position, start.orientation, start.velocity, start.angular_velocity)
+        self.state = self.bodies.state(
+            start.position, start.orientation, start.velocity, start.angular_velocity
+        )

@@ -86,7 +86,7 @@ def _draw_guide(axes, dts, errors, order):
     line = 0.3 * np.asarray(errors, dtype=float)[coarsest[-1]] * (h / h[-1]) ** order
     axes.loglog(h, line, color="grey", linewidth=0.8, linestyle="-", zorder=1)
     style = {"textcoords": "offset points", "color": "0.35", "fontsize": 8}
-    axes.annotate(f"order {order}", (h[0], line[0]), (-38, -4), **style)
+    axes.annotate(f"order {order}", (h[1], line[1]), (4, -11), **style)
 
 
 def _check_shape(name, values, like):
