@@ -114,8 +114,8 @@ def find_python():
                 return command
             without_venv = without_venv or f"{major}.{minor}"
     if without_venv:
-        raise Trouble(f"Python {without_venv} is here, but not its part that makes environments (venv, "
-                      f"ensurepip): {install_advice(without_venv)}, then run the same command again.")
+        raise Trouble(f"Python {without_venv} is here, but not its part that makes environments, venv: "
+                      f"{install_advice(without_venv)}, then run the same command again.")
     this = ".".join(map(str, sys.version_info[:3]))
     raise Trouble(f"The course needs Python {supported()}, 64 bit; this is Python {this}, and no suitable one "
                   f"was found on PATH: {install_advice()}, then run the same command again.")
@@ -180,7 +180,7 @@ def stamp():
 
 @contextlib.contextmanager
 def alone():
-    """Waits until no other set-up runs here. The system frees the lock once its holders end, however they do."""
+    """Waits until no other set-up runs here. The system frees the lock when its holders end or are killed."""
     BUILD.mkdir(exist_ok=True)
     with open(str(BUILD / "setup.lock"), "w") as lock:
         os.set_inheritable(lock.fileno(), True)     # pip holds it too, since it may outlive us
@@ -244,7 +244,9 @@ def install(packages, wheels=None):
     pins = len(re.findall(r"^[^#\s]", PINS.read_text(encoding="utf-8"), re.MULTILINE))
 
     def progress(log):
-        total = pins - log.count("Ignoring ")
+        total = pins - log.count("Ignoring ")       # those of other systems and Pythons
+        if "Collecting " not in log:
+            return "Looking for packages"
         if "Installing collected packages" in log:
             verb, done = "Installing", len(list(packages.glob("*.dist-info"))) - before
         else:
@@ -280,12 +282,15 @@ def logged(command, progress):
 
 
 def show(line, shown, last):
-    """Shows progress: one line that renews itself on a terminal, elsewhere every tenth and the last."""
+    """Shows progress: a line that renews itself on a terminal, elsewhere a line each ten packages."""
     if sys.stdout.isatty():
         print("\r" + line.ljust(len(shown)), end="\n" if last else "", flush=True)
-    elif line != shown and (last or re.search(r"\b\d*0 of", line)):
+        return line
+    tens, tens_shown = (re.sub(r"\d of", " of", words) for words in (line, shown))
+    if tens != tens_shown or (last and line != shown):
         print(line, flush=True)
-    return line
+        return line
+    return shown
 
 
 # --- Running programs in the environment ------------------------------------------------------------------
@@ -296,7 +301,7 @@ UNWANTED = ("PYTHONHOME", "PYTHONSTARTUP", "__PYVENV_LAUNCHER__", "JUPYTER_PATH"
 
 
 def environment(**changes):
-    """A child's environment. A PYTHONPATH that other software set would bring in packages of another Python."""
+    """A child's environment. A PYTHONPATH set by other software would bring in another Python's packages."""
     kept = {key: value for key, value in os.environ.items() if key not in UNWANTED}
     return dict(kept, PYTHONPATH=str(ROOT), PYTHONUTF8="1", **changes)
 
@@ -471,7 +476,7 @@ def own_copy(unit):
 
 
 def unit_and_file(target, unit=None):
-    """What to check. A unit means the copy in work/; a file's unit is told by its name or folder, or --unit."""
+    """What to check. A unit means the copy in work/. A file's unit is in its name, its folder's, or --unit."""
     file = Path(target).resolve()
     if file.is_file():
         numbers = re.findall(r"^\d+(?=_)", file.name) + re.findall(r"^\d+(?=_)", file.parent.name)
