@@ -6,10 +6,10 @@ off are drawn first.
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
 
+import base64
 import itertools
 
 import numpy as np
-from matplotlib.animation import FuncAnimation
 from matplotlib.collections import PolyCollection
 
 from ..rotation import over_arrays, rotate, rotate_in_plane
@@ -57,7 +57,7 @@ def key_frames(scene, run, frames=5, view=(20, 30), path=False):
     return figure
 
 
-def animate(scene, run, alt, frames=40, seconds=4, key=5, view=(20, 30), path=False):
+def animate(scene, run, alt, frames=30, seconds=4, key=5, view=(20, 30), path=False):
     """A Picture: key frames side by side with the description ``alt``, and under them a player.
 
     frames: pictures in the animation; seconds: how long it plays; key: how many key frames stand above it.
@@ -67,17 +67,40 @@ def animate(scene, run, alt, frames=40, seconds=4, key=5, view=(20, 30), path=Fa
     if not seconds > 0:
         raise ValueError(f"seconds must be greater than 0, but is {seconds!r}")
     still = show(key_frames(scene, run, key, view, path), alt)
-    figure, axes = plt.subplots(figsize=(3.6, 3.2), dpi=70, layout="none")  # finding a layout would cost more
-    figure.subplots_adjust(left=0.18, right=0.97, bottom=0.16, top=0.91)  # than drawing the bodies
-
-    def frame(k):
+    with plt.rc_context({"figure.constrained_layout.use": False}):  # finding a layout costs more than drawing
+        figure, axes = plt.subplots(figsize=(3.2, 3.2), dpi=70)
+    pictures = []
+    for k in _spread(run, frames):
         axes.clear()
-        draw(scene, run, k, axes, view, path)
+        draw(scene, run, k, axes, view, path).set_axis_off()  # the key frames have axes, and ticks cost time
+        pictures.append(show(figure, alt).png)
+    return Picture(still.png, alt, _player(pictures, 1000 * seconds / frames))
 
-    film = FuncAnimation(figure, frame, frames=_spread(run, frames), interval=1000 * seconds / frames)
-    player = film.to_jshtml(default_mode="once")  # the pictures and the buttons, all in the page itself
-    plt.close(figure)
-    return Picture(still.png, alt, player)
+
+# What a click on the button and a move of the slider do. Without scripts the first picture stays.
+PLAY = (
+    "var b=this,s=b.nextElementSibling,on=b.timer;clearInterval(on);b.timer=0;if(on)return;"
+    "if(s.value==s.max)s.value=0;b.timer=setInterval(function(){{s.value=+s.value+1;s.oninput();"
+    "if(s.value==s.max){{clearInterval(b.timer);b.timer=0}}}},{pause:.0f})"
+)
+SLIDE = (
+    "var f=this.parentElement.getElementsByTagName('img');"
+    "for(var i=0;i<f.length;i++)f[i].style.display=i==this.value?'':'none'"
+)
+
+
+def _player(pictures, pause):
+    """HTML with a button, a slider, and the pictures themselves, one shown at a time. Nothing is loaded."""
+    images = [
+        f'<img alt="" src="data:image/png;base64,{base64.b64encode(png).decode()}" '
+        f'style="display:{"none" if k else ""}">'
+        for k, png in enumerate(pictures)
+    ]
+    return (
+        f'<div>{"".join(images)}<br><button onclick="{PLAY.format(pause=pause)}">play / stop</button>'
+        f'<input type="range" aria-label="instant" min="0" max="{len(pictures) - 1}" value="0" '
+        f'oninput="{SLIDE}"></div>'
+    )
 
 
 def faces(shape, dimension):
