@@ -12,11 +12,11 @@ import math
 import numpy as np
 
 from ..compiled import plain
-from ..rotation import cross, rotate, rotate_back
+from ..rotation import conjugate, cross, rotate
 from ..shapes import Point
 from ..trajectory import BodyState
 
-_cross, _rotate, _rotate_back = plain(cross), plain(rotate), plain(rotate_back)
+_cross, _rotate, _conjugate = plain(cross), plain(rotate), plain(conjugate)
 
 
 class Forces:
@@ -64,9 +64,9 @@ class Forces:
         arm = (point - body.position).tolist()
         if not self.turns[i]:
             return i, arm
-        return i, list(_rotate_back(body.orientation, arm)) if self.dimension == 3 else _turned(
-            -body.orientation, arm
-        )
+        return i, list(
+            _rotate(_conjugate(body.orientation.tolist()), arm)
+        ) if self.dimension == 3 else _turned(-body.orientation, arm)
 
     def _end(self, end, state):
         """Arm from the centre, position and velocity (lists of d) of a spring's end."""

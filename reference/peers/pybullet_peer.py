@@ -8,7 +8,7 @@ It has two kinds of body, which differ in the gyroscopic term (setting ``body``;
 
 - ``"multibody"``, what createMultiBody gives by default (the base of an articulated tree): taken explicitly,
   at the start of the step, s ← s + h I⁻¹ (τ − s × I s). So it gains energy. It also limits each component of
-  v and ω to 100 unless told otherwise: this adapter raises that limit to 1e10.
+  v and ω to 100 unless told otherwise: this adapter lifts that limit.
 - ``"rigid"`` (``useMaximalCoordinates=1``): taken implicitly, by one step of Newton's method from s on
   I (s′ − s) + h s′ × I s′ = 0 (Catto, GDC 2015), to which h I⁻¹ τ is added. So it loses energy.
 
@@ -21,10 +21,10 @@ none. Both are set to 0 here. Sleeping is off by default, and switched off again
 
 **Setting up.** ``changeDynamics(mass=…)`` alone puts the shape's inertia back, and ``localInertiaDiagonal``
 alone makes a rigid body's reported mass 0: mass and inertia are given together, damping in a call of its own.
-A rigid body's inverse inertia *in the world* is stale until it has once been stepped: the first torque would
-meet the inertia of its shape. So each client takes one step at rest, without gravity, before bodies are put
-in place and set in motion. Inertia is diagonal, so the engine's frame of a body is the one of its principal
-axes.
+A rigid body's inverse inertia *in the world* is stale until it has once been stepped, and putting the body
+elsewhere does not renew it: the first torque would meet the inertia of the shape. So each client takes one
+step at rest, in place and without gravity, before anything is set in motion. Inertia is diagonal, so the
+engine's frame of a body is the one of its principal axes.
 
 **Forces** other than gravity are computed from the state at the start of each step and applied at the centre
 of mass (``applyExternalForce`` and ``applyExternalTorque``, world frame): what an explicit force in
@@ -53,7 +53,7 @@ from .engine import Engine, Peer
 from .forces import Forces
 
 _multiply, _conjugate = plain(multiply), plain(conjugate)
-_NO_LIMIT = 1e10  # m/s and rad/s
+_NO_LIMIT = 1e300  # m/s and rad/s
 
 
 class PybulletPeer(Peer):
@@ -99,8 +99,6 @@ class PybulletPeer(Peer):
         p.setGravity(*self.scene.gravity.tolist(), physicsClientId=c)
         for i, number in self.in_engine.items():
             body = self.scene.bodies[i]
-            w, x, y, z = _multiply(body.orientation.tolist(), self.axes[i])
-            p.resetBasePositionAndOrientation(number, body.position.tolist(), (x, y, z, w), physicsClientId=c)
             p.resetBaseVelocity(
                 number, body.velocity.tolist(), body.angular_velocity.tolist(), physicsClientId=c
             )
@@ -108,18 +106,23 @@ class PybulletPeer(Peer):
     def _body(self, body, rigid):
         """The engine's number of a body, and the quaternion principal axes (its frame) → body's frame."""
         p, c = self.p, self.client
-        moments, axes = (
-            (np.ones(3), np.array([1.0, 0, 0, 0]))
-            if isinstance(body.shape, Point)
-            else principal_axes(body.inertia)
+        point = isinstance(body.shape, Point)
+        moments, axes = principal_axes(np.eye(3) if point else body.inertia)
+        axes = tuple(axes.tolist())
+        w, x, y, z = _multiply(body.orientation.tolist(), axes)
+        number = p.createMultiBody(
+            baseMass=body.mass,
+            basePosition=body.position.tolist(),
+            baseOrientation=(x, y, z, w),
+            useMaximalCoordinates=rigid,
+            physicsClientId=c,
         )
-        number = p.createMultiBody(baseMass=body.mass, useMaximalCoordinates=rigid, physicsClientId=c)
         p.changeDynamics(number, -1, mass=body.mass, localInertiaDiagonal=moments.tolist(), physicsClientId=c)
         p.changeDynamics(number, -1, linearDamping=0, angularDamping=0, physicsClientId=c)
         p.changeDynamics(number, -1, activationState=p.ACTIVATION_STATE_DISABLE_SLEEPING, physicsClientId=c)
         if not rigid:
             p.changeDynamics(number, -1, maxJointVelocity=_NO_LIMIT, physicsClientId=c)
-        return number, tuple(axes.tolist())
+        return number, axes
 
     def step(self, steps):
         """A tight loop where the engine does everything itself; else forces are applied before each step."""

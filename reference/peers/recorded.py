@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
-from ..layout import Bodies
 from ..cases import CASES
 from ..cases.case import Catalogue
+from ..layout import Bodies
 from ..trajectory import ContactHistory, Trajectory
 from . import simulate_in
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 
 from reference import Point, simulate
 from reference.cases import CASES
@@ -26,7 +26,8 @@ IDS = [f"{name}-{'-'.join(map(str, parameters.values()))}" for name, parameters 
 
 
 def newton_euler(scene):
-    """ẏ of all bodies of a scene, written out with NumPy and 3 × 3 matrices: shares no code with the reference.
+    """ẏ of all bodies of a scene, written out with NumPy and 3 × 3 matrices: shares no code with the
+    reference.
 
     y: for each body x (3,), R (9,), v (3,), ω (3,); a planar scene is a spatial one that happens to be flat.
     """
@@ -70,8 +71,13 @@ def newton_euler(scene):
             τ[i] -= angular * ω[i]
         for s, arm in zip(scene.springs, arms, strict=True):
             r = [None if i is None else R[i] @ a for i, a in zip((s.a, s.b), arm, strict=True)]
-            ends = [solid(p) if i is None else x[i] + k for i, k, p in ((s.a, r[0], s.point_a), (s.b, r[1], s.point_b))]
-            speeds = [np.zeros(3) if i is None else v[i] + np.cross(ω[i], k) for i, k in ((s.a, r[0]), (s.b, r[1]))]
+            ends = [
+                solid(p) if i is None else x[i] + k
+                for i, k, p in ((s.a, r[0], s.point_a), (s.b, r[1], s.point_b))
+            ]
+            speeds = [
+                np.zeros(3) if i is None else v[i] + np.cross(ω[i], k) for i, k in ((s.a, r[0]), (s.b, r[1]))
+            ]
             span = ends[1] - ends[0]
             n = span / np.linalg.norm(span)
             pull = s.stiffness * (np.linalg.norm(span) - s.length) + s.damping * n @ (speeds[1] - speeds[0])
@@ -83,7 +89,13 @@ def newton_euler(scene):
             for j in range(len(x)):
                 if i != j and scene.gravitation:
                     r = x[j] - x[i]
-                    f[i] += scene.gravitation * scene.bodies[i].mass * scene.bodies[j].mass * r / np.linalg.norm(r) ** 3
+                    f[i] += (
+                        scene.gravitation
+                        * scene.bodies[i].mass
+                        * scene.bodies[j].mass
+                        * r
+                        / np.linalg.norm(r) ** 3
+                    )
         out = np.empty_like(y)
         for i, body in enumerate(scene.bodies):
             J = R[i] @ inertia[i] @ R[i].T
@@ -111,7 +123,9 @@ def test_exact_answer_solves_the_equation_of_motion(name, parameters):
     np.testing.assert_allclose(exact.angular_velocity, spin, atol=tolerance)
     for k in range(len(time)):
         for i in range(y.shape[1]):
-            np.testing.assert_allclose(matrix(exact.orientation[k, i]), y[k, i, 3:12].reshape(3, 3), atol=tolerance)
+            np.testing.assert_allclose(
+                matrix(exact.orientation[k, i]), y[k, i, 3:12].reshape(3, 3), atol=tolerance
+            )
 
 
 @pytest.mark.parametrize(("name", "parameters"), ALL, ids=IDS)
@@ -119,7 +133,9 @@ def test_exact_answer_starts_where_the_scene_does(name, parameters):
     case = CASES[name](**parameters)
     start = case.exact(0.0)
     for i, body in enumerate(case.scene.bodies):
-        for exact, given in zip(start, (body.position, body.orientation, body.velocity, body.angular_velocity), strict=True):
+        for exact, given in zip(
+            start, (body.position, body.orientation, body.velocity, body.angular_velocity), strict=True
+        ):
             np.testing.assert_allclose(exact[i], given, atol=1e-14)
 
 
@@ -142,9 +158,11 @@ def test_attitude_of_the_top_against_scipy():
 
 
 @pytest.mark.parametrize("rates", [(-2, 0.1, -2), (0.5, -2, 1), (0.2, 2, -0.1), (1, -0.2, 0.3)])
-@pytest.mark.parametrize("inertia", [(1, 2, 3), (3, 2, 1), (2, 1, 3), (2, 3, 1.5), (3, 1.5, 2), (1, 1.8, 1.7)])
+@pytest.mark.parametrize(
+    "inertia", [(1, 2, 3), (3, 2, 1), (2, 1, 3), (2, 3, 1.5), (3, 1.5, 2), (1, 1.8, 1.7)]
+)
 def test_top_whichever_axis_is_which(inertia, rates):
-    """All orders of the moments, both kinds of polhode, all signs: rates by differences, attitude by its rate."""
+    """All orders of moments, both kinds of polhode, all signs: rates and attitude by differences."""
     # Differences over 2e-5 s carry 1e-13 / 1e-5 = 1e-8 of rounding; ten times that is the tolerance.
     top, time, step = FreeTop(inertia, rates, (0.5, 0.5, -0.5, 0.5)), np.linspace(0, 30, 40), 1e-5
     I, ω = np.array(inertia), top.rates(time)
@@ -152,14 +170,17 @@ def test_top_whichever_axis_is_which(inertia, rates):
     np.testing.assert_allclose(I * slope, np.cross(I * ω, ω), atol=1e-7)
     R = rotation_matrix(top.attitude(time))
     Ṙ = (rotation_matrix(top.attitude(time + step)) - rotation_matrix(top.attitude(time - step))) / (2 * step)
-    np.testing.assert_allclose(Ṙ, np.cross(top.angular_velocity(time)[:, None], R.swapaxes(1, 2)).swapaxes(1, 2), atol=1e-7)
+    np.testing.assert_allclose(
+        Ṙ, np.cross(top.angular_velocity(time)[:, None], R.swapaxes(1, 2)).swapaxes(1, 2), atol=1e-7
+    )
     L = np.einsum("tij,tj->ti", R, I * ω)
     np.testing.assert_allclose(L, np.broadcast_to(L[0], L.shape), atol=1e-12)
     assert rotation_angle(top.attitude(0.0), np.array([0.5, 0.5, -0.5, 0.5])) < 1e-14
 
 
 @pytest.mark.parametrize(
-    ("inertia", "rates"), [((1, 1, 2), (1, 2, 3)), ((1, 2, 3), (0, 1, 0)), ((1, 2, 3), (0, 0, 1)), ((1, 2, 3), (0, 0, 0))]
+    ("inertia", "rates"),
+    [((1, 1, 2), (1, 2, 3)), ((1, 2, 3), (0, 1, 0)), ((1, 2, 3), (0, 0, 1)), ((1, 2, 3), (0, 0, 0))],
 )
 def test_top_that_does_not_tumble_is_refused(inertia, rates):
     with pytest.raises(ValueError, match="tumbles"):
@@ -167,11 +188,12 @@ def test_top_that_does_not_tumble_is_refused(inertia, rates):
 
 
 def test_elliptic_pi_against_quadrature():
-    from scipy.integrate import quad
+    def integrand(θ, n, m):
+        return 1 / ((1 - n * np.sin(θ) ** 2) * np.sqrt(1 - m * np.sin(θ) ** 2))
 
     for n, m in ((-0.7, 0.3), (0.6, 0.9), (-40.0, 0.999)):
         for φ in (-7.0, -1.2, 0.4, 1.5, 5.0):
-            value = quad(lambda θ: 1 / ((1 - n * np.sin(θ) ** 2) * np.sqrt(1 - m * np.sin(θ) ** 2)), 0, φ, limit=500)[0]  # noqa: B023
+            value = quad(integrand, 0, φ, (n, m), limit=500)[0]
             assert elliptic_pi(n, φ, m) == pytest.approx(value, rel=1e-7)
 
 
@@ -189,9 +211,11 @@ def test_heavy_top_stays_on_its_tip_and_keeps_its_energy():
     assert np.abs(run.position).max() < 1e-12
     energy = run.energy()
     assert np.ptp(energy) < 1e-6 * abs(energy[0])
-    # The springs' energy is m g l cos θ and a constant: lift the top upright, and it differs by m g l (1 − cos θ).
+    # The springs' energy is m g l cos θ and a constant: upright it is more by m g l (1 − cos θ).
     upright = CASES["heavy_top"](tilt=1e-9)
-    at = [simulate(c.scene, c.duration, c.duration).energy()[0] - 0.5 * 0.03 * 30.0**2 for c in (upright, case)]
+    at = [
+        simulate(c.scene, c.duration, c.duration).energy()[0] - 0.5 * 0.03 * 30.0**2 for c in (upright, case)
+    ]
     Ω = case.exact.top.precession
     swing = 0.5 * 0.08 * (Ω * np.sin(0.6)) ** 2
     assert at[0] - (at[1] - swing) == pytest.approx(9.81 * 0.25 * (1 - np.cos(0.6)), rel=1e-9)
