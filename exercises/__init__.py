@@ -3,8 +3,7 @@
     from exercises import load
     given, check = load("02")        # or load(2), or load("02_equation_of_motion")
 
-`given` holds the unit's helpers. `check("name")` checks one function of the calling notebook, `check()` all
-of them.
+`given` holds the unit's helpers. `check("name")` checks one function of the calling notebook, `check()` all.
 """
 
 import importlib.util
@@ -18,7 +17,7 @@ silent = False  # True in a worker: the grader asks from outside, and a notebook
 
 def units():
     """Slugs of all units that have an exercise, in order."""
-    return sorted(folder.name for folder in FOLDER.iterdir() if (folder / "checks.py").is_file())
+    return sorted(folder.name for folder in FOLDER.iterdir() if (folder / "given.py").is_file())
 
 
 def slug(unit):

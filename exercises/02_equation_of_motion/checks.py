@@ -45,6 +45,7 @@ PLATE = Check(
     judge=equal(engines.PLATE, 1e-9),
     source=engines.PLATE.source,
     why="pymunk computes in double precision too: its moments differ from ours by rounding, about 1e-15.",
+    form="three values, (mass, centre, inertia): a number, an array of 2, a number",
     section="Inertia of a composite body",
     causes=(
         cause_like(
@@ -105,6 +106,7 @@ BODY_RATE = Check(
     ],
     judge=equal(right.body_rate, 1e-12),
     why=ROUNDING,
+    form="an array of 4 numbers",
     section="From ω to the quaternion's rate",
     causes=(
         cause_like(
@@ -170,6 +172,7 @@ GYROSTAT_RATE = Check(
     hidden=lambda stream: list(gyrostats(stream)),
     judge=equal(right.gyrostat_rate, 1e-11),
     why="Solving with I costs a few digits of rounding, about 1e-15 here; no physics is left out.",
+    form="an array of 3 numbers",
     section="The gyroscopic term",
     causes=(
         cause_like(
@@ -235,6 +238,7 @@ AIR_FORCE = Check(
     hidden=lambda stream: list(flights(stream)),
     judge=equal(right.air_force, 1e-12),
     why=ROUNDING,
+    form="an array of 3 numbers",
     section="External forces",
     causes=(
         cause_like(
@@ -306,6 +310,7 @@ KUTTA_STEP = Check(
     judge=equal(right.kutta, 1e-12),
     why="The scheme says which numbers to add, so only rounding may differ. The exact motion is further off "
     "than that, on purpose: it is this scheme that is asked for.",
+    form="an array of the same shape as y",
     section="Integrators and their order",
     causes=(
         cause_like(
@@ -360,7 +365,8 @@ def march_calls(v):
 
 def march_errors(v, answers):
     exact, runs = right.swelling(v, v["duration"] * np.arange(COMMON + 1) / COMMON), answers[1:]
-    if any(np.shape(run) != (n + 1, len(v["y"])) for run, n in zip(runs, ORDER_STEPS, strict=True)):
+    runs = [np.asarray(run, dtype=float) for run in runs]
+    if any(run.shape != (n + 1, len(v["y"])) for run, n in zip(runs, ORDER_STEPS, strict=True)):
         raise ValueError("a run has not steps + 1 rows")
     errors = [np.max(np.abs(run[:: n // COMMON] - exact)) for run, n in zip(runs, ORDER_STEPS, strict=True)]
     return [v["duration"] / n for n in ORDER_STEPS], errors
@@ -392,6 +398,7 @@ MARCH = Check(
     judge=all_of(on_answer(0, equal(right.march_euler, 1e-12)), fitted_order(march_errors, 3, 0.08)),
     why="The Euler steps may differ by rounding. The order is fitted from three runs at dt, dt/2, dt/4: at "
     "these steps a scheme of order 3 shows 3.000 ± 0.001, and the next wrong order is 2 or 4.",
+    form="an array of shape (steps + 1, len(y)): the start, then the state after each step",
     section="Integrators and their order",
     causes=(
         cause_like(
@@ -451,6 +458,7 @@ FLIP_TIME = Check(
     reply=Reply(nonfinite=True),
     why="At this dt Kutta's method finds the flip to about 3e-6 s. The step is 1e-2 s, so a time taken from "
     "the grid, without the straight line between two steps, does not pass.",
+    form="a number, a time in s, or np.inf",
     section="The free top",
     causes=(
         cause(
@@ -485,6 +493,7 @@ SWING = Check(
     source=engines.SWING.source,
     why="pybullet steps its jointed trees exactly like this, in double precision: the two agree to 1e-15. "
     "The exact motion of the pendulum is 1e-3 off or more, and does not pass.",
+    form="an array of steps + 1 angles, the start first",
     section="What the engines do",
     causes=(
         cause_like(

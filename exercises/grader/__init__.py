@@ -7,8 +7,8 @@ Two sides talk over a pipe, in JSON text. What knows the answers stays on the gr
                       marking    ask, judge, count points
                       report     what a student reads
                       recordings what an engine answered, where the engine is not installed
-                      notebook   check("name") in a notebook: both sides in one process, the same text between
-                      them shell      check a file: python -m exercises.grader.shell --unit 02 PATH
+                      notebook   check("name") in a notebook: both sides in one process
+                      shell      check a file: python -m exercises.grader.shell --unit 02 PATH
                       student    the shell's subprocess, seen from outside
     both sides        replies    which values may cross, and how they are written
     student's side    worker     looks functions up, calls them, sends back what they return

@@ -30,8 +30,7 @@ class Call:
 
 @dataclass(frozen=True)
 class Cause:
-    """A likely cause: `matches(values, verdict)` says whether this failure looks like it; `text` says it to a
-    student."""
+    """A likely cause, told by `text` where `matches(values, verdict)` says that the failure looks like it."""
 
     text: str
     matches: Callable
@@ -48,6 +47,7 @@ class Check:
     hidden: Callable  # hidden(random generator) -> list of cases
     judge: Callable  # judge(values, answers of the calls) -> Verdict
     why: str  # the reason of the tolerance
+    form: str  # what the function returns, in words
     section: str  # heading on the unit's page to read
     function: str = ""  # the student's function; the check's name unless given
     calls: Callable = None  # calls(values) -> list of Call; one call with the values in order unless given
@@ -57,8 +57,7 @@ class Check:
     source: Callable = None  # source() -> where the expected values come from, in words
 
     def cases(self, seed):
-        """All cases for a seed. Each check has its own stream, so that a new check leaves the others' cases
-        alone."""
+        """All cases for a seed. Each check has its own stream: a new one leaves the others' cases alone."""
         stream = np.random.default_rng([seed, zlib.crc32(self.name.encode())])
         return [*self.visible, *(Case(case.label, case.values, hidden=True) for case in self.hidden(stream))]
 

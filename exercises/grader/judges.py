@@ -1,8 +1,7 @@
 """When is an answer right? A judge is a function of (values of the case, answers of its calls) → Verdict.
 
 Every judge reduces an answer to one number, its error, beside the tolerance: so the tests of an exercise can
-measure how far right solutions stay below the tolerance and mistakes above it. NaN is never within a
-tolerance.
+measure how far right solutions stay below it and mistakes above. NaN is never within a tolerance.
 """
 
 import math
@@ -18,6 +17,7 @@ class Verdict:
     expected: object
     got: object
     complaint: str = ""  # what is wrong with the kind of answer: shape, type, missing
+    measure: str = ""  # what the error is relative to
 
     @property
     def passed(self):
@@ -61,7 +61,10 @@ def _worst(parts):
 
 
 def _difference_of_numbers(expected, got, floor):
-    expected, got_array = _as_numbers(expected), _as_numbers(got)
+    expected = _as_numbers(expected)
+    if hasattr(got, "toarray") and got.shape != expected.shape:  # before it is made dense: it may be huge
+        return math.inf, f"{kind_of(expected)} is expected, not {kind_of(got)}"
+    got_array = _as_numbers(got)
     if expected.size == 0 or got_array is None or got_array.shape != expected.shape:
         return math.inf, f"{kind_of(expected)} is expected, not {kind_of(got)}"
     finite = np.isfinite(expected)  # where inf or NaN is expected, it must come, and nowhere else
@@ -99,6 +102,10 @@ def kind_of(value):
     return "a number" if shape == () else f"an array of shape {shape}"
 
 
+def _relative_to(floor):
+    return f"relative to the largest number expected, or to {floor:g} where that is larger"
+
+
 def equal(oracle, tolerance, floor=1.0):
     """The answer is `oracle(values)`, to a tolerance relative to its largest number, taken as at least
     `floor`."""
@@ -106,7 +113,7 @@ def equal(oracle, tolerance, floor=1.0):
     def judge(values, answers):
         expected, (got,) = oracle(values), answers
         error, complaint = difference(expected, got, floor)
-        return Verdict(error, tolerance, expected, got, complaint)
+        return Verdict(error, tolerance, expected, got, complaint, _relative_to(floor))
 
     return judge
 
@@ -123,7 +130,7 @@ def up_to_sign(oracle, tolerance, floor=1.0):
         expected, (got,) = oracle(values), answers
         both = [(sign * expected, *difference(sign * expected, got, floor)) for sign in (1, -1)]
         nearer, error, complaint = min(both, key=lambda item: item[1])
-        return Verdict(error, tolerance, nearer, got, complaint)
+        return Verdict(error, tolerance, nearer, got, complaint, _relative_to(floor))
 
     return judge
 
@@ -143,7 +150,7 @@ def unordered(oracle, tolerance, floor=1.0):
         for row in expected:
             order.append(left.pop(int(np.argmin([np.max(np.abs(rows[i] - row)) for i in left]))))
         error, complaint = difference(expected, rows[order], floor)
-        return Verdict(error, tolerance, expected, got, complaint)
+        return Verdict(error, tolerance, expected, got, complaint, _relative_to(floor))
 
     return judge
 

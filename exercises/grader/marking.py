@@ -1,5 +1,8 @@
-"""Ask, judge, count points. `ask` is any function from a request's text to a response's text: the worker in
-this process (notebook), in a subprocess (shell), or in a sandbox (class)."""
+"""Ask, judge, count points.
+
+`ask` is any function from a request's text to a response's text: the worker in this process (notebook), in a
+subprocess (shell), or in a sandbox (class).
+"""
 
 import json
 import math

@@ -1,5 +1,4 @@
-"""`check("name")` in a notebook: looks at the functions that the notebook holds now, prints a report, returns
-nothing.
+"""`check("name")` in a notebook: looks at the functions that the notebook holds now, and prints a report.
 
 Grader and worker sit in one process here, and talk in the same text as over a pipe: so a reply that could not
 cross the pipe does not pass here either.

@@ -26,18 +26,11 @@ class Unrecorded(Exception):
 
 
 class EngineOracle:
-    """`run(**inputs)` asks the engine. `inputs()` gives the list of all inputs to record; `settings` says how
-    it is set."""
+    """`run(**inputs)` asks the engine, `inputs()` lists what to record, `settings` say how it is set."""
 
     def __init__(self, engine, path, run, inputs, settings):
-        self.engine, self.path, self.run, self.inputs, self.settings = (
-            engine,
-            Path(path),
-            run,
-            inputs,
-            settings,
-        )
-        self.answers = {}
+        self.engine, self.path, self.settings = engine, Path(path), settings
+        self.run, self.inputs, self.answers = run, inputs, {}
 
     @property
     def live(self):

@@ -1,5 +1,4 @@
-"""Which values may cross between grader and student, and how they are written: plain JSON text, never a
-pickle.
+"""Which values may cross between grader and student, and how: as plain JSON text, never a pickle.
 
 None, bool, numbers, declared words, tuples (lists become tuples), dicts with text keys, arrays, sparse
 arrays. Arrays travel as their bytes, so every float arrives exactly. inf and NaN arrive only where a check

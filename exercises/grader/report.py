@@ -26,7 +26,7 @@ def report(result, page):
     lines += _row("case", first.case.label)
     lines += [line for call in first.calls[:1] for line in _row("call", write_call(call))]
     lines += _what_came(first)
-    lines += _row("why that tolerance", check.why) if not first.verdict.complaint else []
+    lines += _row("why that tolerance", check.why)
     if check.source:
         lines += _row("expected comes from", check.source())
     if first.printed:
@@ -39,7 +39,7 @@ def report(result, page):
 def _unwritten(check, page):
     return [
         f"to do   {check.name}: 0 of {check.points} points; it returns None.",
-        *_row("asked for", check.title),
+        *_row("asked for", f"{check.title}: {check.form}"),
         *_row("likely cause", "The function is still to be written, or its `return` is missing."),
         *_row("read", f'{page}, section "{check.section}"'),
     ]
@@ -56,7 +56,8 @@ def _what_came(outcome):
     if verdict.complaint:
         rows += _row("", verdict.complaint)
     else:
-        rows += _row("error", f"{verdict.error:.3g}, where at most {verdict.tolerance:.3g} is allowed")
+        rows += _row("error", f"{verdict.error:.3g}{verdict.measure and ', ' + verdict.measure}")
+    rows += _row("tolerance", f"{verdict.tolerance:.3g}")
     return rows
 
 
@@ -64,11 +65,11 @@ def likely_cause(result):
     """The first cause that looks like every failing case; else what the check says for want of a better."""
     check = result.check
     failing = [outcome for outcome in result.outcomes if not outcome.verdict.passed]
-    raised = [outcome.verdict.got for outcome in failing if isinstance(outcome.verdict.got, Failure)]
-    if raised:
-        return _cause_of_failure(raised[0], check)
+    if isinstance(failing[0].verdict.got, Failure):
+        return _cause_of_failure(failing[0].verdict.got, check)
+    failing = [outcome for outcome in failing if not isinstance(outcome.verdict.got, Failure)]
     if failing[0].verdict.complaint:
-        return f"The answer is not of the kind asked for: {failing[0].verdict.complaint}."
+        return f"The answer is not of the kind asked for. It must be {check.form}."
     for cause in check.causes:
         if all(_matches(cause, outcome) for outcome in failing):
             return cause.text
@@ -78,17 +79,21 @@ def likely_cause(result):
 def _matches(cause, outcome):
     try:
         return bool(cause.matches(outcome.case.values, outcome.verdict))
-    except (TypeError, ValueError, IndexError, KeyError, AttributeError):
+    except Exception:
         return False  # an answer so odd that this cause's test cannot even look at it
 
 
 def _cause_of_failure(failure, check):
     if failure.kind == "answer":
-        return f"{check.function or check.name} must give back what the text above its cell asks for."
+        return f"The function is not there, or its answer is not {check.form}."
     if failure.kind == "no answer":
         return "A loop that does not end, or far too many steps."
     if failure.kind == "NameError":
         return "A name that is not defined: a slip in spelling, or a cell that was not run."
+    if "NoneType" in failure.message:
+        return (
+            "Something is None: a function that this one uses is still to be written, or lacks its `return`."
+        )
     if failure.kind == "TypeError" and "argument" in failure.message:
         return "The function must take the arguments of the starter, in that order."
     return "The error is raised in your own lines above; call the function by hand with the arguments shown."
@@ -108,8 +113,12 @@ def _row(name, text):
 def write(value):
     """A value, to eight figures, as a student reads it."""
     if isinstance(value, np.ndarray):
+        if value.size == 0:
+            return f"an array of shape {value.shape}, which holds nothing"
         text = np.array2string(value, precision=8, threshold=40, edgeitems=4, max_line_width=WIDTH - INDENT)
-        return text if text.count("\n") < 9 else f"{kind(value)} that begins {write(value[:3])}"
+        if text.count("\n") < 9:
+            return text
+        return f"an array of shape {value.shape} that begins {write(value.ravel()[:6])}"
     if isinstance(value, (float, np.floating)):
         return f"{value:.9g}"
     if isinstance(value, tuple):
@@ -117,12 +126,8 @@ def write(value):
     if isinstance(value, dict):
         return "{" + ", ".join(f"{key!r}: {write(item)}" for key, item in value.items()) + "}"
     if hasattr(value, "toarray"):
-        return f"sparse {write(value.toarray())}"
+        return f"a sparse array of shape {value.shape}"
     return value if isinstance(value, str) else repr(value)
-
-
-def kind(array):
-    return f"an array of shape {array.shape}"
 
 
 def write_call(call):

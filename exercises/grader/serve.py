@@ -1,5 +1,4 @@
-"""The loop of the shell's subprocess: requests come in on standard input, responses go out on standard
-output.
+"""The loop of the shell's subprocess: requests on standard input, responses on standard output.
 
     {"cell": source, "name": "cell 3"}    runs a cell              → {"error": null or {...}}
     {"calls": [...]}                      answers as worker.py says → {"replies": [...]}

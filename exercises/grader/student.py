@@ -1,5 +1,4 @@
-"""The shell's subprocess, seen from outside: a student's cells run there, and questions are put to it over a
-pipe.
+"""The shell's subprocess, seen from outside: it runs a student's cells, and answers over a pipe.
 
 A cell or a question that takes too long, or that kills the process, costs only itself: a new process runs the
 other cells again, and goes on.

@@ -1,10 +1,12 @@
 """The student's side: looks functions up by name, calls them, sends back what they return.
 
-A request is one line of JSON text, {"calls": [{"function": name, "arguments": [...]}, ...]}, and so is the
-response,
-{"replies": [{"value": ...} or {"error": {"kind", "message", "lines"}}, ...]}. Each call has its own fresh
-copies of the arguments, since they are read from the text anew, and random generators set to the same state:
-no call can spoil another.
+Request and response are one line of JSON text each:
+
+    {"calls": [{"function": name, "arguments": [...]}, ...]}
+    {"replies": [{"value": ...} or {"error": {"kind", "message", "lines"}}, ...]}      perhaps with "printed"
+
+Each call has its own fresh copies of the arguments, since they are read from the text anew, and random
+generators set to the same state: no call can spoil another.
 """
 
 import contextlib

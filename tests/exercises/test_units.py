@@ -2,7 +2,8 @@
 loses what it should and no more. Written for all units at once: a new unit's folder is tested as soon as it
 is there."""
 
-import importlib
+import dataclasses
+import importlib.util
 import inspect
 import itertools
 import math
@@ -10,6 +11,10 @@ import re
 
 import numpy as np
 import pytest
+import scipy.sparse
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import array_shapes, arrays
 
 import exercises
 from exercises.grader.cells import read_cells
@@ -18,6 +23,7 @@ from exercises.grader.replies import Student
 from exercises.grader.report import report
 from exercises.grader.shell import check_cells
 from exercises.grader.student import StudentProcess
+from exercises.grader.worker import Worker
 from tests.exercises.exercise_support import UNITS, Submission
 
 SEEDS_FAST, SEEDS_ALL = range(6), range(200)
@@ -131,6 +137,36 @@ def test_submissions_without_thought_earn_nothing(unit):
         assert [result.check.name for result in results if result.passed] == [], label
         for result in results:
             report(result, "page")
+
+
+ODD = st.recursive(
+    st.one_of(
+        st.none(),
+        st.booleans(),
+        st.floats(),
+        st.integers(-5, 5),
+        arrays(
+            st.sampled_from(["f8", "i8", "?"]), array_shapes(min_dims=0, max_dims=3, min_side=0, max_side=6)
+        ),
+        st.builds(lambda n: scipy.sparse.coo_array((n, 2**30)), st.integers(1, 2**30)),
+    ),
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=4).map(tuple), st.dictionaries(st.sampled_from("ab"), inner, max_size=2)
+    ),
+)
+
+
+@each_unit
+@settings(max_examples=100, deadline=None, derandomize=True)
+@given(answer=ODD)
+def test_no_answer_is_too_odd_for_a_judge(unit, answer):
+    class Anything(dict):
+        def get(self, name):
+            return lambda *arguments: answer
+
+    for check in unit.checks:
+        quick = dataclasses.replace(check, visible=check.visible[:1], hidden=lambda stream: [])
+        report(mark(quick, Worker(Anything(), exercises.part(unit.slug, "given")).answer), "page")
 
 
 @each_mistake

@@ -29,6 +29,7 @@ def check_of(function, expected=1.0, calls=None, reply=NUMBERS, cases=2, **value
         hidden=lambda stream: [],
         judge=equal(lambda v: expected, 1e-9),
         why="rounding",
+        form="a number",
         section="none",
         calls=calls,
         reply=reply,
@@ -201,7 +202,7 @@ def test_each_check_draws_its_own_hidden_cases():
         return [Case("drawn", {"x": float(stream.uniform())})]
 
     one, other = (
-        Check(name, "t", 1, (), hidden, equal(lambda v: v["x"], 0), "", "") for name in ("one", "other")
+        Check(name, "t", 1, (), hidden, equal(lambda v: v["x"], 0), "", "", "") for name in ("one", "other")
     )
     assert one.cases(3)[0].values == one.cases(3)[0].values != other.cases(3)[0].values
     assert one.cases(3)[0].values != one.cases(4)[0].values and one.cases(3)[0].hidden

@@ -1,6 +1,6 @@
 # Mistake: the start is not in the result.
 # Loses: march
-# Says: march: shape (6, 2)
+# Says: march: the start, then the state after each step
 # ruff: noqa: F821 (names that are not defined here are solution_a's)
 
 # %%
