@@ -32,8 +32,7 @@ def contest(label, longest, repeats, tell):
     """All measurements of a contest, as dictionaries: what the JSON lines hold."""
     plan = []
     for method in methods_of(label):
-        tell(f"{label}: warming up {method.name}, and its errors")
-        method.prepare(64 * method.inner).advance(method.case.duration)
+        tell(f"{label}: {method.name}: errors")
         plan += [(method, *row) for row in ladder(method, longest)]
     times = np.full((repeats, len(plan)), np.nan)
     gc.disable()
@@ -91,7 +90,7 @@ def main(arguments=None):
     for engine in ENGINES.values():
         if not engine.available:
             print(f"{engine.name} is not installed here, and so not compared: {engine.install}")
-    longest, repeats = (0.01, 3) if options.quick else (0.3, 7)
+    longest, repeats = (0.03, 3) if options.quick else (0.2, 5)
     options.out.mkdir(parents=True, exist_ok=True)
     everything, text = [], []
     for number, label in enumerate(labels, start=1):

@@ -94,7 +94,7 @@ class Method:
 
         try:
             return measure.cpu_seconds(
-                lambda ready: ready.advance(self.case.duration), 1, prepare, least=2e-4
+                lambda ready: ready.advance(self.case.duration), 1, prepare, least=1e-4
             )
         finally:
             for ready in made if self.engine else ():
