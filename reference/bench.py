@@ -7,7 +7,9 @@ A method is a curve: for each case and method, error against processor seconds a
 it is used, and setting the scene up does not. The methods of a case take turns, several times, and medians
 count, so that a busy moment of the machine meets all of them. Compiling comes before. Errors are those of
 separate runs, over up to 64 records. pybullet's substeps are steps that it takes in C++, without going back
-to Python.
+to Python. A force that an engine has no word for is computed in Python at each of its steps, the only way to
+give it one, and that counts too: on such cases (orbit, heavy top, springs in pybullet) the engine's own part
+of the time is small.
 
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """

@@ -55,7 +55,7 @@ class Method:
 
     def __init__(self, case, settings, engine=None):
         self.case, self.engine, self.settings = case, engine, settings
-        words = [v if isinstance(v, str) else f"{k} {v}" for k, v in settings.items()]
+        words = [v if k in ("integrator", "body") else f"{k} {v}" for k, v in settings.items()]
         self.name = " ".join([engine, *words] if engine else words)
         self.inner = settings.get("substeps", 1)
         order = 1 if engine else INTEGRATORS[settings["integrator"]].order

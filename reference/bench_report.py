@@ -76,6 +76,12 @@ def summary(rows):
         chosen = [row for row in rows if row["case"] == label]
         ours = best([row for row in chosen if not row["settings"]["engine"]])
         compared = comparison(chosen)
+        for engine in sorted(
+            {row["settings"]["engine"] or "" for row in chosen} - {"", *(e[0] for e in compared)}
+        ):
+            lines.append(
+                f"  {label:<20}{engine:<10}  never at 0.1 or below in this run; ours best {ours[-1, 1]:.1e}"
+            )
         for engine in dict.fromkeys(entry[0] for entry in compared):
             points = [entry for entry in compared if entry[0] == engine]
             shown = [points[0], max(points, key=lambda entry: entry[3]), points[-1]]
