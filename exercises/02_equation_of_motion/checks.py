@@ -46,7 +46,7 @@ PLATE = Check(
     source=engines.PLATE.source,
     why="pymunk computes in double precision too: its moments differ from ours by rounding, about 1e-15.",
     form="three values, (mass, centre, inertia): a number, an array of 2, a number",
-    section="Inertia of a composite body",
+    section="Inertia",
     causes=(
         cause_like(
             "The parallel-axis term m·d² is left out: each part's moment is about its own centre, and must "
@@ -107,7 +107,7 @@ BODY_RATE = Check(
     judge=equal(right.body_rate, 1e-12),
     why=ROUNDING,
     form="an array of 4 numbers",
-    section="From ω to the quaternion's rate",
+    section="Attitude, and the matrix from ω to q̇",
     causes=(
         cause_like(
             "The angular velocity is taken as one in the world's frame. In the body's frame its quaternion "
@@ -173,7 +173,7 @@ GYROSTAT_RATE = Check(
     judge=equal(right.gyrostat_rate, 1e-11),
     why="Solving with I costs a few digits of rounding, about 1e-15 here; no physics is left out.",
     form="an array of 3 numbers",
-    section="The gyroscopic term",
+    section="Newton and Euler",
     causes=(
         cause_like(
             "The gyroscopic term Ω × (I Ω + h) is missing: angular momentum is constant in the world, not in "
@@ -311,7 +311,7 @@ KUTTA_STEP = Check(
     why="The scheme says which numbers to add, so only rounding may differ. The exact motion is further off "
     "than that, on purpose: it is this scheme that is asked for.",
     form="an array of the same shape as y",
-    section="Integrators and their order",
+    section="Integrators",
     causes=(
         cause_like(
             "The third slope is taken at y + dt (2 k2 + k1): k1 counts with a minus there.",
@@ -399,7 +399,7 @@ MARCH = Check(
     why="The Euler steps may differ by rounding. The order is fitted from three runs at dt, dt/2, dt/4: at "
     "these steps a scheme of order 3 shows 3.000 ± 0.001, and the next wrong order is 2 or 4.",
     form="an array of shape (steps + 1, len(y)): the start, then the state after each step",
-    section="Integrators and their order",
+    section="Integrators",
     causes=(
         cause_like(
             "The clock stands still: give the step the time k · dt at which it starts.",
@@ -459,7 +459,7 @@ FLIP_TIME = Check(
     why="At this dt Kutta's method finds the flip to about 3e-6 s. The step is 1e-2 s, so a time taken from "
     "the grid, without the straight line between two steps, does not pass.",
     form="a number, a time in s, or np.inf",
-    section="The free top",
+    section="A body that turns over",
     causes=(
         cause(
             "The time is that of a step, before or after the flip: find where the straight line between the "
@@ -494,7 +494,7 @@ SWING = Check(
     why="pybullet steps its jointed trees exactly like this, in double precision: the two agree to 1e-15. "
     "The exact motion of the pendulum is 1e-3 off or more, and does not pass.",
     form="an array of steps + 1 angles, the start first",
-    section="What the engines do",
+    section="What engines do",
     causes=(
         cause_like(
             "The angle is updated with the old rate, which is the explicit Euler method; pybullet updates "

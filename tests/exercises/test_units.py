@@ -64,7 +64,8 @@ def test_sections_to_read_are_on_the_page(unit):
     page = exercises.FOLDER.parent / "lectures" / f"{unit.slug}.md"
     if not page.is_file():
         pytest.skip(f"{page.name} is not written")
-    headings = set(re.findall(r"^#+ +(.+?) *$", page.read_text(encoding="utf-8"), re.M))
+    text = page.read_text(encoding="utf-8")
+    headings = set(re.findall(r"^#+ +(?:\d+\. +)?(.+?)(?: +\(S[^)]*\))? *$", text, re.M))
     assert {check.section for check in unit.checks} <= headings
 
 
@@ -183,7 +184,9 @@ def test_the_report_of_a_mistake_tells_it(unit, mistake):
     }
     for name, words in mistake.says:
         assert words in texts[name].partition("likely cause")[2], texts[name]
-        assert "the page, section" in texts[name]
+        rows = ("case", "call", "expected", "got", "tolerance", "why that tolerance", "the page, section")
+        for row in rows:
+            assert row in texts[name], texts[name]
 
 
 def worst_ratio(check, ask, seed):
