@@ -24,8 +24,7 @@ class Engine:
     """An engine: ``load(scene, dt, **settings)`` gives a Peer that steps the scene in it.
 
     name: of the Python package; settings: name → (default, what is allowed: a tuple of words, or the smallest
-    whole number); install: a sentence; adapter: the Peer's class; recorded_in: the version this adapter was
-    written for.
+    whole number); install: a sentence; adapter: the Peer's class.
     """
 
     name: str

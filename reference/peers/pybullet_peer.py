@@ -15,16 +15,16 @@ It has two kinds of body, which differ in the gyroscopic term (setting ``body``;
 **Rotation** is by the exponential map of the *new* ω, for both, up to |ω| h = π/4; past that the angle is cut
 off, silently and wrongly. The adapter refuses a scene that starts there.
 
-**Damping** is not 0 by default: a multibody gets the extra force −m v d (1 + |v|), and likewise for rotation,
-with d = .04, which at 3 m/s takes 16 % of the speed a second; a rigid body made this way reports .04 but gets
-none. Both are set to 0 here. Sleeping is off by default, and switched off again.
+**Damping** d is .04 by default for a multibody, the extra force −m v d (1 + |v|), and likewise for rotation:
+at 3 m/s it takes 16 % of the speed a second. A rigid body has none by default; if given, it multiplies v and ω
+by (1 − d)^h. Both are set to 0 here. Sleeping is off by default, and switched off again.
 
 **Setting up.** ``changeDynamics(mass=…)`` alone puts the shape's inertia back, and ``localInertiaDiagonal``
-alone makes a rigid body's reported mass 0: mass and inertia are given together, damping in a call of its own.
-A rigid body's inverse inertia *in the world* is stale until it has once been stepped, and putting the body
-elsewhere does not renew it: the first torque would meet the inertia of the shape. So each client takes one
-step at rest, in place and without gravity, before anything is set in motion. Inertia is diagonal, so the
-engine's frame of a body is the one of its principal axes.
+alone takes the mass of a rigid body that has a shape: mass and inertia are given together, damping in a call
+of its own. A rigid body's inverse inertia *in the world* is stale until it has once been stepped, and putting
+the body elsewhere does not renew it: the first torque would meet the inertia of the shape. So each client
+takes one step at rest, in place and without gravity, before anything is set in motion. Inertia is diagonal,
+so the engine's frame of a body is the one of its principal axes.
 
 **Forces** other than gravity are computed from the state at the start of each step and applied at the centre
 of mass (``applyExternalForce`` and ``applyExternalTorque``, world frame): what an explicit force in
@@ -32,9 +32,9 @@ velocity-first Euler means. The engine forgets them after the step. Without such
 engine's own numSubSteps, a loop in C++; with them, each substep is a call, and its forces are new.
 
 How it was found: one step from given numbers agrees with the formulas above to 4e-16, with and without
-torque, for both kinds of body and several spins, and does not agree with the other kind's formula (5e-4);
-5,000 steps agree to 1e-11. The cut-off, limits and defaults were seen in single steps; Bullet's public source
-(btMultiBody, btRigidBody, btTransformUtil) says the same. The tests repeat it.
+torque, for both kinds of body and several spins, and not with the other kind's formula (5e-4); 5,000 steps
+agree to 1e-11. Cut-off, limit, damping and sleeping were seen in single steps from chosen states. Bullet's
+public source (btMultiBody, read) has the explicit term and that damping. The tests repeat the steps.
 
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
