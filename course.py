@@ -117,8 +117,8 @@ def find_python():
         raise Trouble(f"Python {without_venv} is here, but not its part that makes environments, venv: "
                       f"{install_advice(without_venv)}, then run the same command again.")
     this = ".".join(map(str, sys.version_info[:3]))
-    raise Trouble(f"The course needs Python {supported()}, 64 bit; this is Python {this}, and no suitable one "
-                  f"was found on PATH: {install_advice()}, then run the same command again.")
+    raise Trouble(f"The course needs Python {supported()}, 64 bit; this is Python {this}, and no suitable "
+                  f"one was found on PATH: {install_advice()}, then run the same command again.")
 
 
 def candidates():
@@ -419,11 +419,12 @@ def lab(options, _):
         print(f"There are new versions of {', '.join(newer)}; to get them: {ME} update")
     settle_jupyter()
     first = next((name for name in originals() if name.startswith("notebooks/")), None)
-    command = ["-m", "jupyterlab", str(WORK), "--ServerApp.log_level=WARN",
+    command = ["-m", "jupyterlab", str(WORK), "--ServerApp.log_level=ERROR", "--LabApp.log_level=ERROR",
                "--LabApp.default_url=/lab" + (f"/tree/{first}" if first else ""),
                # one kernel, the environment's, whatever a notebook or the user's own Jupyter say
                "--KernelSpecManager.allowed_kernelspecs={'python3'}",
                "--MultiKernelManager.default_kernel_name=python3",
+               "--KernelManager.transport_encryption=auto",     # else the kernel warns that others might listen
                # nothing asks the network
                "--LabApp.news_url=None", "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
                "--LabApp.extension_manager=readonly"]
@@ -442,9 +443,11 @@ def lab(options, _):
 def settle_jupyter():
     """JupyterLab's first settings, then the student's own: no news, no extensions, pages open as pages."""
     off = ["@jupyterlab/apputils-extension:announcements", "@jupyterlab/extensionmanager-extension:plugin"]
-    viewer = "lab/user-settings/@jupyterlab/docmanager-extension/plugin.jupyterlab-settings"
+    own = "lab/user-settings/@jupyterlab/{}.jupyterlab-settings".format
     settings = {"labconfig/page_config.json": {"disabledExtensions": dict.fromkeys(off, True)},
-                viewer: {"defaultViewers": {"markdown": "Markdown Preview"}}}
+                own("docmanager-extension/plugin"): {"defaultViewers": {"markdown": "Markdown Preview"}},
+                # the default kernel, not a question, where a notebook asks for one that is not here
+                own("notebook-extension/tracker"): {"autoStartDefaultKernel": True}}
     for name, content in settings.items():
         if not (WORK / ".jupyter" / name).exists():
             write(WORK / ".jupyter" / name, json.dumps(content).encode("utf-8"))
@@ -476,7 +479,7 @@ def own_copy(unit):
 
 
 def unit_and_file(target, unit=None):
-    """What to check. A unit means the copy in work/. A file's unit is in its name, its folder's, or --unit."""
+    """What to check. A unit means the copy in work/. A file's name or folder tells its unit, or --unit."""
     file = Path(target).resolve()
     if file.is_file():
         numbers = re.findall(r"^\d+(?=_)", file.name) + re.findall(r"^\d+(?=_)", file.parent.name)
