@@ -30,9 +30,8 @@ def composite_inertia(masses, centres, inertias, orientations=None):
 
     masses (k,); centres (k, 3) or (k, 2), in the body's frame; inertias (k, 3, 3) or (k,), each about its
     part's own centre, in the part's own frame; orientations (k, 4): quaternions part → body, None where the
-    frames are parallel.
-    A hole is a part of negative mass. Returns (mass, centre, inertia). Raises ValueError where the whole has
-    no mass.
+    frames are parallel. A hole is a part of negative mass and inertia. Returns (mass, centre, inertia).
+    Raises ValueError where the whole has no mass.
     """
     centres = np.asarray(centres, dtype=float)
     masses = inputs.array("masses", masses, (len(centres),))

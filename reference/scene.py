@@ -6,63 +6,18 @@ units, world frame. Bodies are numbered from 0 in the order in which they were a
 Slides S4–S6, S10; lectures/02_equation_of_motion.md.
 """
 
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
 from . import inputs
+from .declared import Body, Pair, Spring
 from .inertia import checked_inertia
 from .shapes import SHAPES, Plane, Point
 
 
 class Unsupported(ValueError):
     """The simulator, solver or engine can't express what was asked for; the message says what it lacks."""
-
-
-@dataclass(frozen=True, eq=False)
-class Body:
-    """One body as declared; arrays in the world frame at the start. ``inertia`` about the centre, body frame.
-
-    inertia: (3, 3) in space, a number in the plane, None for a Point and for what is static.
-    """
-
-    shape: object
-    mass: float
-    static: bool
-    position: np.ndarray
-    orientation: np.ndarray | float
-    velocity: np.ndarray
-    angular_velocity: np.ndarray | float
-    friction: float
-    restitution: float
-    inertia: np.ndarray | float | None
-    group: object
-
-
-@dataclass(frozen=True, eq=False)
-class Spring:
-    """A spring and damper in parallel between two points, each fixed on a body (None: fixed in the world).
-
-    point_a, point_b: (d,) in world coordinates at the start; length: at rest, m.
-    """
-
-    a: int
-    b: int | None
-    stiffness: float
-    damping: float
-    length: float
-    point_a: np.ndarray
-    point_b: np.ndarray
-
-
-@dataclass(frozen=True)
-class Pair:
-    """What two bodies have between them when they touch; None: made from the bodies' own values."""
-
-    friction: float | None = None
-    restitution: float | None = None
-    collide: bool = True
 
 
 class Scene:
@@ -151,7 +106,10 @@ class Scene:
         return len(self.bodies) - 1
 
     def pair(self, i, j, friction=None, restitution=None, collide=True):
-        """Say what holds between bodies i and j: else the product of their frictions, the larger restitution."""
+        """Say what holds between the bodies i and j.
+
+        None: the product of their frictions, the larger of their restitutions.
+        """
         i, j = self._number("i", i), self._number("j", j)
         if i == j:
             raise ValueError(f"j must be another body than i, but both are {i}")
@@ -207,9 +165,9 @@ class Scene:
     def force(self, f):
         """Add the user's own force: ``f(t, state)`` returns a force and a torque for all n bodies.
 
-        Force (n, d) in N, torque (n, 3) or (n,) in N m, world frame; ``state`` has position, orientation, velocity and angular_velocity
-        of all bodies, and must not be changed. A run with such a force calls Python in each step, and is
-        slower for it.
+        Force (n, d) in N, torque (n, 3) or (n,) in N m, world frame; ``state`` has position, orientation,
+        velocity and angular_velocity of all bodies, and must not be changed. A run with such a force calls
+        Python in each step, and is slower for it.
         """
         if not callable(f):
             raise TypeError(f"f must be a function f(t, state), but is {f!r}")

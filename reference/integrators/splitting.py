@@ -173,7 +173,7 @@ COMPOSITION6 = np.array([
 def compose4(step, system, t, h, state, work):
     """Five steps of a symmetric method of order 2, the third of them backwards: order 4.
 
-    With forces that depend on velocity the kick is not symmetric, and the order stays 2. Source: Suzuki,
+    With forces that depend on velocity the kick is not symmetric, and the order is 3. Source: Suzuki,
     Phys. Lett. A 146 (1990) 319.
     """
     for k in range(len(COMPOSITION4)):

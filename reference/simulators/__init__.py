@@ -1,8 +1,10 @@
 """Simulators, one file a family (S3); ``simulate`` chooses what the scene needs.
-lectures/02_equation_of_motion.md.
+
+Slides S3, S9; lectures/02_equation_of_motion.md.
 """
 
 from .model import Model, model
-from .simulate import FAMILIES, SIMULATORS, Simulation, simulate
+from .settings import FAMILIES, SIMULATORS, Settings
+from .simulate import Simulation, simulate
 
-__all__ = ["FAMILIES", "SIMULATORS", "Model", "Simulation", "model", "simulate"]
+__all__ = ["FAMILIES", "SIMULATORS", "Model", "Settings", "Simulation", "model", "simulate"]

@@ -1,5 +1,4 @@
-"""The smooth simulator: no contact is possible, so an integrator alone moves the bodies, to any order it
-likes.
+"""The smooth simulator: no contact is possible, so an integrator alone moves the bodies.
 
 ``run`` is the whole simulation: it repeats the integrator's step (S9). It is compiled together with the step
 and the force; a force that is the user's own Python function makes ``run`` and the step plain Python around
@@ -14,25 +13,29 @@ import numpy as np
 
 from ..compiled import bind, compiled, plain
 from ..forces import external_force, with_user_forces
-from ..integrators import INTEGRATORS, make_work
+from ..integrators import INTEGRATORS, copy, make_work
 from ..trajectory import BodyState
 
 
 @compiled
-def run(step, system, state, t, h, steps, every, max_iterations, tolerance, record, solves):
-    """Do so many steps of h from time t; every so many, and after the last, write y and the solves' worst
-    into a row.
+def run(step, system, state, origin, first, h, steps, every, max_iterations, tolerance, record, solves):
+    """Do so many steps of h; the time is ``origin`` + h · (steps done before, ``first``, and since).
 
-    record (rows, size of y); solves (rows, 2): iterations and residual; no rows: nothing is recorded.
-    Returns how many steps were done: fewer than ``steps`` if the state stopped being finite.
+    Every so many steps, and after the last, y goes into a row of record (rows, size of y), and the iterations
+    and the residual of implicit steps, the worst since the row before, into solves (rows, 2); no rows: no
+    record. Returns how many steps were done: fewer than ``steps`` if the next would not have been finite;
+    the state is then the last that was.
     """
     work = make_work(len(state.x), len(state.q), state.x.shape[1], max_iterations, tolerance)
+    before = state.y.copy()
     row = 0
-    for done in range(1, steps + 1):
-        step(system, t + (done - 1) * h, h, state, work)
+    for done in range(steps):
+        step(system, origin + (first + done) * h, h, state, work)
         if not all_finite(state.y):
-            return done - 1
-        if len(record) > 0 and (done % every == 0 or done == steps):
+            copy(before, state.y)
+            return done
+        copy(state.y, before)
+        if len(record) > 0 and ((done + 1) % every == 0 or done + 1 == steps):
             record[row] = state.y
             solves[row] = work.solve
             work.solve[:] = 0
@@ -52,25 +55,24 @@ def all_finite(y):
 class Smooth:
     """A scene made ready to run with one integrator: ``advance`` moves ``state``, and records if told to."""
 
-    def __init__(self, bodies, user_forces, integrator, max_iterations, tolerance):
+    def __init__(self, bodies, user_forces, settings):
         self.bodies, self.state = bodies, bodies.state()
-        self.limits = max_iterations, tolerance
-        method = INTEGRATORS[integrator]
+        self.limits = settings.iterations, settings.tolerance
+        self.nothing = np.empty((0, self.state.y.size)), np.empty((0, 2))
+        method = INTEGRATORS[settings.integrator]
         if user_forces:
-            force = with_user_forces(bodies, user_forces, self.public_state)
-            base = plain(method.base) if method.base else None
-            step = functools.partial(plain(method.step), functools.partial(base, force) if base else force)
+            step = method.partial(with_user_forces(bodies, tuple(user_forces), self.public_state))
             self.run = functools.partial(plain(run), step)
         else:
             self.run = bind(run, method.bind(external_force))
 
-    def advance(self, t, h, steps, every=1, record=None, solves=None):
-        """So many steps of h from time t; returns how many were done before the state stopped being
-        finite.
-        """
-        record = np.empty((0, self.state.y.size)) if record is None else record
-        solves = np.empty((0, 2)) if solves is None else solves
-        return self.run(self.bodies.system, self.state, t, h, steps, every, *self.limits, record, solves)
+    def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
+        """So many steps of h; see ``run``."""
+        if record is None:
+            record, solves = self.nothing
+        return self.run(
+            self.bodies.system, self.state, origin, first, h, steps, every, *self.limits, record, solves
+        )
 
     def public_state(self, t, state):
         """The State as a ``BodyState`` of all bodies."""

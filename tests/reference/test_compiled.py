@@ -1,0 +1,128 @@
+"""Compiled and plain give the same; the cache is used, and never serves what was edited."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from reference import compiled
+
+ROOT = Path(compiled.__file__).parent.parent
+needs_numba = pytest.mark.skipif(compiled.numba is None, reason="Numba is not installed: everything is plain")
+
+RUNS = """
+import json, sys
+import independent, numpy as np
+from reference import simulate
+from reference.compiled import COMPILED
+from reference.integrators import INTEGRATORS
+results = {"compiled": COMPILED}
+for name in INTEGRATORS:
+    for make in (independent.busy_scene, independent.planar_scene):
+        scene = make()
+        scene.spring(0, 1, 2, damping=1.5, length=1)
+        scene.drag(0, 0.4, 0.3)
+        run = simulate(scene, 0.2, 0.02, integrator=name)
+        parts = run.position, run.orientation, run.velocity, run.angular_velocity
+        results[name + make.__name__] = np.concatenate([part.ravel() for part in parts]).tolist()
+json.dump(results, sys.stdout)
+"""
+
+
+def python(code, root=ROOT, **environment):
+    """What a fresh interpreter prints."""
+    path = os.pathsep.join([str(root), str(ROOT / "tests")])
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=root,
+        env={**os.environ, "PYTHONPATH": path, **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@needs_numba
+def test_every_integrator_gives_the_same_compiled_and_plain():
+    compiled_runs, plain_runs = (json.loads(python(RUNS, REFERENCE_COMPILED=switch)) for switch in "10")
+    assert compiled_runs.pop("compiled") and not plain_runs.pop("compiled")
+    for name, expected in plain_runs.items():
+        scale = max(map(abs, expected))
+        worst = max(abs(a - b) for a, b in zip(compiled_runs[name], expected, strict=True))
+        assert worst <= 1e-12 * scale, name
+
+
+SMALL = """
+import numpy as np
+from reference import Point, Scene, Simulation
+scene = Scene(gravity=(0, -1))
+scene.add(Point(), mass=2)
+simulation = Simulation(scene, 0.1, integrator="explicit_euler")
+simulation.step()
+stats = simulation._family.run.stats
+print(simulation.state.velocity[0, 1], sum(stats.cache_hits.values()), sum(stats.cache_misses.values()))
+"""
+
+
+@needs_numba
+def test_the_cache_hits_and_an_edited_helper_is_never_served_stale(tmp_path):
+    shutil.copytree(ROOT / "reference", tmp_path / "reference", ignore=shutil.ignore_patterns("__pycache__"))
+    assert python(SMALL, tmp_path).split() == ["-0.1", "0", "1"]
+    assert python(SMALL, tmp_path).split() == ["-0.1", "1", "0"]
+    helper = tmp_path / "reference" / "forces.py"  # `run`, which was cached, is in another module
+    before = helper.read_text(encoding="utf-8")
+    edited = before.replace("system.mass[i] * system.gravity[k]", "3 * system.mass[i] * system.gravity[k]")
+    assert edited != before
+    helper.write_text(edited, encoding="utf-8")
+    times = helper.stat()
+    os.utime(helper, (times.st_atime, times.st_mtime - 1000))  # older than the cache: time stamps don't help
+    assert float(python(SMALL, tmp_path).split()[0]) == pytest.approx(-0.3)
+
+
+def test_old_caches_are_cleared(tmp_path, monkeypatch):
+    package = tmp_path / "reference"
+    shutil.copytree(ROOT / "reference", package, ignore=shutil.ignore_patterns("__pycache__"))
+    monkeypatch.setattr(compiled, "__file__", str(package / "compiled.py"))
+    for k in range(7):
+        (package / "extra.py").write_text(f"# {k}")
+        folder = compiled.cache_directory.__wrapped__()
+        os.utime(folder, (k, k))
+    kept = {path.name for path in (package / "__pycache__").glob("compiled-*")}
+    assert folder.name in kept and len(kept) <= 5
+
+
+def test_without_a_place_to_write_there_is_no_cache(tmp_path, monkeypatch):
+    (tmp_path / "reference").mkdir()
+    (tmp_path / "reference" / "__pycache__").write_text("a file in the way")
+    monkeypatch.setattr(compiled, "__file__", str(tmp_path / "reference" / "compiled.py"))
+    assert compiled.cache_directory.__wrapped__() is None
+
+
+def test_bind_of_plain_functions_is_a_partial():
+    def apply(f, x):
+        return f(x) + 1
+
+    assert compiled.bind(apply, abs)(-3) == 4
+
+
+@needs_numba
+def test_bind_keeps_the_line_for_tracebacks():
+    from reference.forces import external_force
+    from reference.integrators import rk4
+
+    bound = compiled.bind(rk4, external_force)
+    assert bound.py_func.__code__.co_firstlineno >= rk4.py_func.__code__.co_firstlineno
+    assert bound is compiled.bind(rk4, external_force)
+
+
+def test_the_course_runs_without_numba():
+    hidden = "import sys; sys.modules['numba'] = None\n"
+    assert python(hidden + SMALL.split("stats =")[0] + "print(simulation.state.velocity[0, 1])").split() == [
+        "-0.1"
+    ]
