@@ -72,6 +72,21 @@ def test_pymunk_spring_is_an_impulse_and_its_damper_an_exponential(stiffness, da
         np.testing.assert_allclose((run.position[k, 0, 0], run.velocity[k, 0, 0]), (x, v), atol=1e-14)
 
 
+@needs("pymunk")
+def test_pymunk_damper_between_two_bodies():
+    scene, h = Scene(gravity=(0, 0)), 0.01
+    scene.add(Point(), mass=2.0, position=(0, 0), velocity=(-0.5, 0))
+    scene.add(Point(), mass=3.0, position=(1, 0), velocity=(0.7, 0))
+    scene.spring(0, 1, 500.0, damping=30.0, length=0.9)
+    run = simulate_in(scene, "pymunk", 0.05, h)
+    gap, rate, inverse = 1.0, 1.2, 1 / 2.0 + 1 / 3.0  # inverse of the reduced mass
+    for k in range(1, 6):
+        gap += h * rate
+        rate = (rate - h * 500.0 * (gap - 0.9) * inverse) * math.exp(-30.0 * h * inverse)
+        found = np.diff(run.position[k, :, 0])[0], np.diff(run.velocity[k, :, 0])[0]
+        np.testing.assert_allclose(found, (gap, rate), atol=1e-14)
+
+
 def bullet_spin(kind, R, ω, τ, I, h):
     """ω after a step of pybullet, in the world; body-frame formulas of the adapter's docstring."""
     s, I = R.T @ ω, np.diag(I)
