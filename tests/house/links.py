@@ -160,7 +160,7 @@ def _target_fault(root, file, target, files, folders, known):
 
 
 def _copy_fault(file, target):
-    """Students read a notebook as a copy in work/, beside other copies and links to lectures/ and reference/."""
+    """Students read a notebook as a copy in work/, beside other copies, lectures/ and reference/."""
     parts = urlsplit(target)
     path = PurePosixPath(posixpath.normpath(posixpath.join(file.parent.as_posix(), parts.path)))
     if parts.scheme or not parts.path or path.parts[0] in ("lectures", "reference"):
