@@ -219,10 +219,15 @@ def test_springs_drag_and_tilted_inertia_in_space(kind):
     scene.spring(a, sun, 40.0)
     scene.drag(b, 0.3, 0.02)
     scene.gravitate(0.1)
-    theirs = simulate_in(scene, "pybullet", 1.0, 1e-3, body=kind)
-    ours = simulate(scene, 1.0, 1e-3, integrator=SAME_SCHEME["pybullet", kind])
-    assert_same(theirs, ours, 1e-9 if kind == "multibody" else 2e-2)
-    np.testing.assert_array_equal(theirs.position[:, sun], np.broadcast_to((0, 0, 4), (1001, 3)))
+    gaps = []
+    for dt in (1e-3, 5e-4):
+        theirs = simulate_in(scene, "pybullet", 1.0, dt, body=kind)
+        ours = simulate(scene, 1.0, dt, integrator=SAME_SCHEME["pybullet", kind])
+        gaps.append(
+            max(np.abs(theirs.velocity - ours.velocity).max(), np.abs(theirs.position - ours.position).max())
+        )
+    assert gaps[0] < 1e-9 or (kind == "rigid" and 1.8 < gaps[0] / gaps[1] < 2.2)
+    np.testing.assert_array_equal(theirs.position[:, sun], np.broadcast_to((0, 0, 4), (2001, 3)))
 
 
 @needs("pymunk")
