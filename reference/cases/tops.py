@@ -97,7 +97,7 @@ def _steady_rate(tilt, spin, fast):
     least = np.sqrt(4 * ACROSS * np.cos(tilt) * moment)
     if momentum < least:
         raise ValueError(
-            f"spin must be at least {least / ALONG:.6g} rad/s to precess steadily at this tilt, but is {spin!r}"
+            f"spin must be at least {least / ALONG:.6g} rad/s to precess steadily at this tilt, but is {spin}"
         )
     root = np.sqrt(momentum**2 - least**2)
     return 2 * moment / (momentum - root if fast else momentum + root)
