@@ -324,13 +324,14 @@ def run(python, arguments, **changes):
 # --- The student's copies ---------------------------------------------------------------------------------
 
 def originals():
-    """What a student works in: notebooks and exercises, by their paths in the course."""
-    files = [*ROOT.glob("notebooks/[0-9]*.ipynb"), *ROOT.glob("exercises/[0-9]*/[0-9]*.ipynb")]
+    """What work/ has copies of: notebooks, exercises, and the pages that they link to. Paths in the course."""
+    files = [*ROOT.glob("notebooks/[0-9]*.ipynb"), *ROOT.glob("exercises/[0-9]*/[0-9]*.ipynb"),
+             *ROOT.glob("lectures/*.md"), *ROOT.glob("lectures/figures/*.*")]
     return sorted(file.relative_to(ROOT).as_posix() for file in files)
 
 
 def units(folder=""):
-    return sorted({Path(name).stem for name in originals() if name.startswith(folder)})
+    return sorted({Path(name).stem for name in originals() if re.match(folder + r".*\.ipynb$", name)})
 
 
 def unit_named(text, folder=""):
@@ -396,21 +397,20 @@ def make_copies():
         elif original not in (record["copies"].get(name), fingerprint(WORK / name)):
             newer.append(name)
     write_record(record)
-    link_pages()
+    link_modules()
     return newer
 
 
-def link_pages():
-    """Lets the links from notebooks to pages and modules lead somewhere in work/; nothing else needs this."""
-    for name in ("lectures", "reference"):
-        link = WORK / name
-        if (ROOT / name).is_dir() and not os.path.lexists(str(link)):
-            with contextlib.suppress(OSError):
-                if WINDOWS:
-                    import _winapi
-                    _winapi.CreateJunction(str(ROOT / name), str(link))
-                else:
-                    link.symlink_to(Path("..") / name)
+def link_modules():
+    """Lets the links from pages to modules lead somewhere within work/. Nothing else needs this."""
+    link = WORK / "reference"
+    if not os.path.lexists(str(link)):
+        with contextlib.suppress(OSError):
+            if WINDOWS:
+                import _winapi
+                _winapi.CreateJunction(str(ROOT / "reference"), str(link))
+            else:
+                link.symlink_to(Path("..") / "reference")
 
 
 # --- The commands -----------------------------------------------------------------------------------------
@@ -419,7 +419,7 @@ def lab(options, _):
     python = course_python(options.wheels)
     newer = make_copies()
     if newer:
-        print(f"There are new versions of {', '.join(newer)}; to get them: {ME} update")
+        print(f"There are new versions of {len(newer)} files in work/; to get them: {ME} update")
     settle_jupyter()
     first = next((name for name in originals() if name.startswith("notebooks/")), None)
     command = ["-m", "jupyterlab", str(WORK), "--ServerApp.log_level=ERROR", "--LabApp.log_level=ERROR",

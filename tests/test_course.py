@@ -64,6 +64,7 @@ def folder(tmp_path):
         "reference/__init__.py": "",
         "reference/bench.py": "import sys; print('bench', *sys.argv[1:])",
         "lectures/page.md": "# Page\n",
+        "lectures/figures/1.svg": "<svg/>",
     }
     for name, text in files.items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -357,7 +358,8 @@ def test_copies_are_never_written_over(course):
     assert course.make_copies() == []
     copy = course.WORK / NOTEBOOK
     assert copy.read_bytes() == (course.ROOT / NOTEBOOK).read_bytes()
-    assert (course.WORK / "lectures" / "page.md").exists()  # the links of a notebook lead somewhere
+    for linked in ("lectures/page.md", "lectures/figures/1.svg", "reference/bench.py"):
+        assert (course.WORK / linked).exists()
     copy.write_text("mine")
     (course.ROOT / NOTEBOOK).write_text(notebook("new"))
     assert course.make_copies() == [NOTEBOOK]
