@@ -324,7 +324,7 @@ def run(python, arguments, **changes):
 # --- The student's copies ---------------------------------------------------------------------------------
 
 def originals():
-    """What work/ has copies of: notebooks, exercises, and the pages that they link to. Paths in the course."""
+    """What work/ has copies of: notebooks, exercises, and the pages that they link to."""
     files = [*ROOT.glob("notebooks/[0-9]*.ipynb"), *ROOT.glob("exercises/[0-9]*/[0-9]*.ipynb"),
              *ROOT.glob("lectures/*.md"), *ROOT.glob("lectures/figures/*.*")]
     return sorted(file.relative_to(ROOT).as_posix() for file in files)

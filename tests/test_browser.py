@@ -153,8 +153,9 @@ def test_notebook_runs_in_the_browser(name, browser, address, course):
 @pytest.mark.parametrize("name", PAGES)
 def test_page_opens_as_a_page_with_its_pictures(name, browser, address, course):
     open_in_lab(browser, address, f"lectures/{name}")
-    pictures = len(re.findall(r"^!\[", (course / "lectures" / name).read_text(encoding="utf-8"), re.MULTILINE))
-    widths = "return [...document.querySelectorAll('.jp-MarkdownViewer img')].map(image => image.naturalWidth)"
+    text = (course / "lectures" / name).read_text(encoding="utf-8")
+    pictures = len(re.findall(r"^!\[", text, re.MULTILINE))
+    widths = "return [...document.querySelectorAll('.jp-MarkdownViewer img')].map(one => one.naturalWidth)"
 
     def all_there(_):
         found = browser.execute_script(widths)
