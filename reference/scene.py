@@ -208,7 +208,7 @@ class Scene:
         return angle_or_q
 
     def _motion(self, name, value, shape, resting):
-        """A velocity: 0 for at rest, or an array of the shape, () for a number. resting: what must be at rest."""
+        """A velocity: an array of the shape, () for a number, or 0. resting: what must be at rest."""
         value = np.zeros(shape) if np.ndim(value) == 0 and value == 0 else value
         result = inputs.array(name, value, shape) if shape else inputs.number(name, value)
         if resting and np.any(result):

@@ -51,6 +51,7 @@ from ..scene import Unsupported
 from ..shapes import Point
 from .engine import Engine, Peer
 from .forces import Forces
+from .quiet import silence
 
 _multiply, _conjugate = plain(multiply), plain(conjugate)
 _NO_LIMIT = 1e300  # m/s and rad/s
@@ -60,7 +61,8 @@ class PybulletPeer(Peer):
     """A scene in space, in a pybullet client of its own, without shapes, since nothing can touch."""
 
     def __init__(self, engine, scene, dt, settings):
-        import pybullet
+        with silence():
+            import pybullet
 
         super().__init__(engine, scene, dt, settings)
         self.forces = Forces(scene, scene.springs, scene.drags)
