@@ -136,7 +136,8 @@ import pathlib, reference.compiled as compiled
 from reference.forces import external_force
 from reference.integrators import rk4, symplectic_euler
 file = pathlib.Path(rk4.py_func.__code__.co_filename)
-file.write_text(file.read_text(encoding="utf-8").replace("for stage in range(4)", "for stage in range(3)"), encoding="utf-8")
+text = file.read_text(encoding="utf-8")
+file.write_text(text.replace("for stage in range(4)", "for stage in range(3)"), encoding="utf-8")
 compiled.bind(symplectic_euler, external_force)
 try:
     compiled.bind(rk4, external_force)
