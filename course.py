@@ -483,14 +483,15 @@ def own_copy(unit):
 
 
 def unit_and_file(target, unit=None):
-    """What to check. A unit means the copy in work/. A file's name or folder tells its unit, or --unit."""
+    """What to check. A unit means the copy in work/. A file's name or a folder tells its unit, or --unit."""
     file = Path(target).resolve()
     if file.is_file():
-        numbers = re.findall(r"^\d+(?=_)", file.name) + re.findall(r"^\d+(?=_)", file.parent.name)
-        if not unit and not numbers:
-            choices = ", ".join(units("exercises/"))
-            raise Trouble(f"Which unit is {target} of? Add --unit and one of {choices}.")
-        return unit_named(unit or numbers[0], "exercises/"), file
+        choices = units("exercises/")
+        numbers = {choice.split("_")[0] for choice in choices}
+        told = [word.split("_")[0] for word in reversed(file.parts) if word.split("_")[0] in numbers]
+        if not unit and not told:
+            raise Trouble(f"Which unit is {target} of? Add --unit and one of {', '.join(choices)}.")
+        return unit_named(unit or told[0], "exercises/"), file
     unit = unit_named(target, "exercises/")
     if not own_copy(unit).exists():
         raise Trouble(f"Your copy of {unit} is not in work/ yet: {ME} lab makes it.")
@@ -523,7 +524,7 @@ def reset(options, _):
     unit, record = unit_named(options.unit), read_record()
     for name in originals():
         file = WORK / name
-        if file.stem == unit:
+        if file.stem == unit and file.suffix == ".ipynb":
             if file.exists() and file.read_bytes() != (ROOT / name).read_bytes():
                 aside = write_beside(file, "old-" + now(), file.read_bytes())
                 print(f"Your old copy is now {aside.relative_to(ROOT).as_posix()}")
