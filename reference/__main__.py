@@ -7,9 +7,11 @@ Slides S4, S9; lectures/02_equation_of_motion.md.
 
 from tqdm import tqdm
 
-from . import Point, Scene, Simulation
 from .compiled import COMPILED, cache_directory
 from .integrators import INTEGRATORS
+from .scene import Scene
+from .shapes import Point
+from .simulators import Simulation
 
 
 def main():

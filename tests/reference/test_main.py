@@ -26,6 +26,7 @@ class Step:
 
 
 def test_does_nothing_without_numba():
-    code = "import sys; sys.modules['numba'] = None; import runpy; runpy.run_module('reference', run_name='__main__')"
+    hide = "import sys; sys.modules['numba'] = None"
+    code = f"{hide}; import runpy; runpy.run_module('reference', run_name='__main__')"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == done.stderr == ""
