@@ -421,7 +421,9 @@ def lab(options, _):
     if newer:
         print(f"There are new versions of {len(newer)} files in work/; to get them: {ME} update")
     settle_jupyter()
-    run(python, ["-m", "reference"])    # compiles the loops, where that was not done yet
+    compiled = run(python, ["-m", "reference"])     # compiles the loops, where that was not done yet
+    if compiled < 0 or compiled > 127:
+        return compiled                             # interrupted: what was asked for is to stop
     first = next((name for name in originals() if name.startswith("notebooks/")), None)
     command = ["-m", "jupyterlab", str(WORK), "--ServerApp.log_level=ERROR", "--LabApp.log_level=ERROR",
                "--LabApp.default_url=/lab" + (f"/tree/{first}" if first else ""),
