@@ -620,6 +620,8 @@ def guarded_main():
         return main()
     except Trouble as trouble:
         print(trouble, file=sys.stderr)
+    except BrokenPipeError:         # as after `| head`: nobody reads on
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
         if remedy(str(error)) is None:
             raise
