@@ -71,10 +71,10 @@ class ContactHistory:
 class Trajectory:
     """The motion of all n bodies at T times, static ones too, in the order added; world frame, SI units.
 
-    time (T,), from 0; start_time: what the clock showed then, s; position (T, n, d); orientation (T, n, 4) or (T, n) in the plane; velocity (T, n, d);
-    angular_velocity (T, n, 3) or (T, n); contacts[k], see ``Contacts``; status: "ok", or "diverged", after
-    which there are no more records; reason: a sentence; residual, iterations (T,): of the step's own
-    equation, the worst since the record before; settings: what was chosen, by whom.
+    time (T,), from 0; start_time: what the clock showed then, s; position (T, n, d); orientation (T, n, 4) or
+    (T, n) in the plane; velocity (T, n, d); angular_velocity (T, n, 3) or (T, n); contacts[k]: ``Contacts``;
+    status: "ok", or "diverged", after which there are no more records; reason: a sentence; residual,
+    iterations (T,): of the step's own equation, the worst since the record before; settings: what was chosen.
     """
 
     bodies: Bodies = field(repr=False)
