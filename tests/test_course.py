@@ -569,7 +569,7 @@ def test_a_fresh_clone_sets_itself_up_and_serves(tmp_path):
             stdin=subprocess.DEVNULL,
         )
     try:
-        deadline = time.monotonic() + 120
+        deadline = time.monotonic() + 600
         while not (found := re.search(r"http://127\.0\.0\.1:\d+/\S+", log.read_text())):
             assert time.monotonic() < deadline and server.poll() is None, log.read_text()
             time.sleep(0.2)
