@@ -94,7 +94,7 @@ def divided(L, I):
 
 @compiled
 def add_gyroscopic_torque(system, state, τ):
-    """τ −= ω × I ω, the inertial part of f_e (S4): in the world frame, I turns with the body."""
+    """τ −= ω × I ω, that is τ += L × ω, the inertial part of f_e (S4): I turns with the body."""
     if planar(state):
         return
     for i in range(len(state.q)):

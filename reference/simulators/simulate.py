@@ -50,6 +50,8 @@ class Simulation:
         self._family = SIMULATORS[chosen.simulator](self.bodies, scene.user_forces, chosen)
         # the plain form of the loops would warn of what the status will tell; the compiled form can't
         self._silence = nullcontext if self.settings["compiled"] else partial(np.errstate, all="ignore")
+        own = "look whether your own force is finite there, or " if scene.user_forces else ""
+        self._remedy = f"{own}try a smaller dt"
         self._origin, self._done = 0.0, 0  # when it started, and substeps done since
         if start is not None:
             self._origin = _checked_start(start, self.bodies)
@@ -106,7 +108,7 @@ class Simulation:
         if done < wanted:
             self.status = "diverged"
             self.reason = (
-                f"the state stopped being finite in the step from t = {self.time:.6g} s; try a smaller dt"
+                f"the state stopped being finite in the step from t = {self.time:.6g} s; {self._remedy}"
             )
         return done // self.substeps
 

@@ -162,6 +162,7 @@ def test_users_nan_is_a_status():
     scene.force(lambda t, state: (np.full((1, 3), np.nan if t > 0.55 else 0), np.zeros((1, 3))))
     run = simulate(scene, 1, 0.1, integrator="explicit_euler")
     assert run.status == "diverged" and run.time[-1] == pytest.approx(0.6)
+    assert "your own force" in run.reason
 
 
 def test_model_builds_only_what_the_scene_needs():
