@@ -1,0 +1,2 @@
+"""interim"""
+def write_all(*a): pass
