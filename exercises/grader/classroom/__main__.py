@@ -1,6 +1,144 @@
-"""interim"""
+"""The commands of a class: grade, collect, release. `course.py` hands its arguments on to this.
+
+    python -m exercises.grader.classroom grade FOLDER [OPTIONS]
+"""
+
+import argparse
 import sys
 from pathlib import Path
-from exercises.grader.classroom.run import Options, grade
+
+import exercises
+from exercises.grader.check import SELF_STUDY_SEED
+from exercises.grader.classroom.files import Trouble, line
+
+
+def main(arguments=None):
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(errors="replace")  # a console that cannot show a letter must not stop us
+    options = _parser().parse_args(arguments)
+    try:
+        if options.exercises:
+            _use(options.exercises)
+        return options.command(options) or 0
+    except Trouble as trouble:
+        print(trouble, file=sys.stderr)
+    except KeyboardInterrupt:
+        print("\nInterrupted. What is graded is kept; the same command goes on from there.", file=sys.stderr)
+        return 130
+    return 2
+
+
+def _use(folder):
+    if not any((path / "checks.py").is_file() for path in folder.glob("*/")):
+        raise Trouble(f"--exercises {folder}: it holds no <unit>/checks.py.")
+    exercises.FOLDER = folder.resolve()
+
+
+def grade(options):
+    from exercises.grader.classroom.run import Options
+    from exercises.grader.classroom.run import grade as grade_class
+    from exercises.grader.classroom.workers import NoSandbox
+
+    try:
+        scores = grade_class(Options(
+            folder=options.folder.resolve(),
+            out=options.out and options.out.resolve(),
+            units=tuple(_slug(unit) for unit in options.unit),
+            seed=options.seed,
+            jobs=options.jobs,
+            scheduler=options.scheduler,
+            unsafe=options.unsafe_no_sandbox,
+            regrade=options.regrade,
+            allow_lower=options.allow_lower,
+            anonymous=options.anonymous,
+            canvas=options.canvas,
+            moodle=options.moodle,
+        ))
+    except NoSandbox as error:
+        raise Trouble(f"{error}\nNothing was graded. --unsafe-no-sandbox grades all the same: whatever a student "
+                      "wrote then runs as you, and every result says so.") from None
+    return 1 if any(score.status == "grader_error" for score in scores) else 0
+
+
+def collect(options):
+    from exercises.grader.classroom.collect import collect as unpack
+    from exercises.grader.classroom.roster import read_roster
+
+    folder = options.out.resolve()
+    written, notes = unpack(options.zip, folder, read_roster(folder), options.unit and _slug(options.unit))
+    for note in notes:
+        print(f"Note: {line(note, 400)}.")
+    print(f"{written} new notebooks in {folder / 'submitted'}.")
+
+
+def release(options):
+    from exercises.grader.classroom.release import release as make
+
+    for path in make(options.out.resolve()):
+        print(path)
+
+
+def _slug(text):
+    try:
+        return exercises.slug(text)
+    except ValueError as error:
+        raise Trouble(f"{error}.") from None
+
+
+def _seed(text):
+    if not text.isdecimal() or len(text) > 60:
+        raise argparse.ArgumentTypeError(f"{line(text)!r} is not a whole number of 0 or more")
+    return int(text)
+
+
+def _jobs(text):
+    if not text.isdecimal() or not 1 <= int(text) <= 256:
+        raise argparse.ArgumentTypeError(f"{line(text)!r} is not a number from 1 to 256")
+    return int(text)
+
+
+def _parser():
+    from exercises.grader.classroom.local import default_jobs
+
+    parser = argparse.ArgumentParser(prog="course.py", description=__doc__.split("\n")[0])
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+
+    def command(function, summary, epilog=None):
+        added = commands.add_parser(function.__name__, help=summary, epilog=epilog,
+                                    description=summary[0].upper() + summary[1:] + ".")
+        added.set_defaults(command=function)
+        added.add_argument("--exercises", type=Path, metavar="DIR", help="your own units, laid out as exercises/ is")
+        return added
+
+    added = command(grade, "grade FOLDER/submitted/<student>/<unit>/*.ipynb: scores.csv, feedback, an overview",
+                    "Beside submitted/ you may put roster.csv, deadlines.csv, manual.csv: see lectures/instructors.md. "
+                    "The same command after an interruption goes on where it stopped.")
+    added.add_argument("folder", type=Path, metavar="FOLDER")
+    added.add_argument("--out", type=Path, metavar="DIR", help="where the results go (default: FOLDER)")
+    added.add_argument("--unit", action="append", default=[], help="grade only this unit; may be repeated")
+    added.add_argument("--seed", type=_seed, metavar="N", help="draw the hidden cases from N; without it from 128 "
+                       "secret bits, drawn on first use and kept with the results. "
+                       f"{SELF_STUDY_SEED} is the students' own, of notebook and shell")
+    added.add_argument("--jobs", type=_jobs, default=default_jobs(), metavar="N",
+                       help="submissions graded at a time on this machine (default: %(default)s)")
+    added.add_argument("--scheduler", metavar="ADDRESS", help="send the submissions to a Dask cluster: "
+                       "tls://HOST:PORT, or tcp://127.0.0.1:PORT")
+    added.add_argument("--regrade", action="store_true", help="grade all anew, and list old → new")
+    added.add_argument("--allow-lower", action="store_true", help="let --regrade lower a score")
+    added.add_argument("--anonymous", action="store_true", help="numbers in place of names in the overview")
+    added.add_argument("--canvas", type=Path, metavar="CSV", help="a gradebook exported from Canvas, to be filled")
+    added.add_argument("--moodle", type=Path, metavar="CSV", help="a gradebook exported from Moodle, to be filled")
+    added.add_argument("--unsafe-no-sandbox", action="store_true",
+                       help="grade even where no sandbox works; stamped into every result")
+    added = command(collect, "unpack a download from Canvas or Moodle into submitted/<student>/<unit>/")
+    added.add_argument("zip", type=Path, metavar="ZIP")
+    added.add_argument("--out", type=Path, default=Path("."), metavar="FOLDER",
+                       help="the class's folder, with roster.csv if there is one (default: here)")
+    added.add_argument("--unit", help="which unit it is, if the files' names don't tell")
+    added = command(release, "make the students' copy: no solutions, oracles, generators or seeds")
+    added.add_argument("--out", type=Path, default=Path("build") / "release", metavar="DIR")
+    return parser
+
+
 if __name__ == "__main__":
-    grade(Options(Path(sys.argv[1]), jobs=int(sys.argv[2]) if len(sys.argv)>2 else 1, unsafe=True))
+    sys.exit(main())

@@ -33,7 +33,8 @@ def of_score(score):
         parts.append(f"<h2>From your instructor</h2><div class=note>{pre(score.manual.comment)}</div>")
     parts.append(_overview(result))
     parts.append(_troubles(result))
-    parts += [_check(check, unit) for check in result.get("checks", ()) if not check.get("unasked")]
+    failed = [check for check in result.get("checks", ()) if not check["passed"]]
+    parts += [_check(check, unit) for check in failed if not check.get("unasked")]
     return page(title, "\n".join(filter(None, parts)))
 
 
@@ -59,10 +60,10 @@ def _status(score, result):
 def _overview(result):
     lines = [
         f"<tr><td>{'✓' if check['passed'] else '✗'}<td>{text(check['name'])}<td>{text(check['title'])}"
-        f"<td class=n>{check['earned']} of {check['points']}"
+        f"<td class=n>{check['earned']} of {check['points']}<td>{text(check['source'])}"
         for check in result.get("checks", ())
     ]
-    head = "<tr><th scope=col><th scope=col>check<th scope=col>what<th scope=col>points"
+    head = "<tr><th scope=col><th scope=col>check<th scope=col>what<th scope=col>points<th scope=col>judged by"
     return f"<table>{head}{''.join(lines)}</table>" if lines else ""
 
 
@@ -75,11 +76,8 @@ def _troubles(result):
 
 
 def _check(check, unit):
-    """One check: all of it where it failed, a line where it passed."""
+    """All that is told of one failed check."""
     head = f"<h2>{text(check['name'])}: {check['earned']} of {check['points']} points</h2>"
-    if check["passed"]:
-        source = f"; {text(check['source'])}" if check["source"] else ""
-        return f"<section class=good>{head}<p>All {check['cases']} cases pass{source}.</section>"
     count = f"{check['failing']} of {check['cases']} cases fail"
     if check["hidden"]:
         count += ". All cases that you can see pass; here is what can be told of the first that you don't see"
@@ -102,4 +100,4 @@ def _check(check, unit):
         ("likely cause", text(check["cause"])),
         ("read", text(read)),
     ])
-    return f"<section class=bad>{head}<p>{count}.</p>{told}{picture}</section>"
+    return f"<section>{head}<p>{count}.</p>{told}{picture}</section>"

@@ -18,12 +18,8 @@ def write_all(scores, alike, roster, folder, anonymous=False):
         body += _unit(unit, [score for score in scores if score.submission.unit == unit], name)
     body.append(_alike(alike, name))
     write(folder / "overview.html", page("The class", "\n".join(body)))
-    lines = [[unit_of(one), f"{share:.2f}", name(one.student), name(other.student)] for share, one, other in alike]
+    lines = [[one.unit, f"{share:.2f}", name(one.student), name(other.student)] for share, one, other in alike]
     write(folder / "similar.csv", table(("assignment", "shared", "one", "other"), lines))
-
-
-def unit_of(submission):
-    return submission.unit
 
 
 def _names(scores, anonymous):
@@ -67,7 +63,7 @@ def _unit(unit, scores, name):
     lines = [
         f"<tr><td>{text(name(score.submission.student))}<td>{text(score.status)}<td class=n>{number(score.final)}"
         f"<td>{text((score.result or {}).get('reason', ''))}"
-        for score in scores if score.status not in ("ok", "missing")
+        for score in scores if score.status not in ("ok", "unsandboxed", "missing")
     ]
     if lines:
         yield ("<h3>To look at</h3><table><tr><th>student<th>status<th>score<th>why" + "".join(lines) + "</table>")

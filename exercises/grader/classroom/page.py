@@ -6,15 +6,14 @@ from exercises.grader.classroom.files import printable
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 STYLE = """
-:root{color-scheme:light dark;--line:#8886;--soft:#8881;--good:#00734f;--bad:#a63d00}
-@media(prefers-color-scheme:dark){:root{--good:#4fd1a5;--bad:#ff9a5c}}
+:root{color-scheme:light dark;--line:#8886;--soft:#8881;--bad:#a63d00}
+@media(prefers-color-scheme:dark){:root{--bad:#ff9a5c}}
 body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem}
 h1{font-size:1.5rem}h2{font-size:1.15rem;margin:2rem 0 .3rem}
 table{border-collapse:collapse;margin:.6rem 0}td,th{padding:.2rem .8rem .2rem 0;text-align:left;vertical-align:top}
 tr+tr>*{border-top:1px solid var(--line)}th{font-weight:600;white-space:nowrap}td.n{text-align:right}
 pre{margin:0;white-space:pre-wrap;overflow-wrap:anywhere;font:14px/1.45 ui-monospace,monospace}
-section{border-left:4px solid var(--bad);padding-left:1rem}section.good{border-color:var(--good)}
-.good>h2,.good b{color:var(--good)}.bad>h2{color:var(--bad)}
+section{border-left:4px solid var(--bad);padding-left:1rem}section>h2{color:var(--bad)}
 .note{background:var(--soft);padding:.5rem .8rem;border-radius:.3rem}svg{max-width:100%;height:auto}
 """
 
