@@ -30,7 +30,7 @@ def as_data(check):
     return {
         **{word: getattr(check, word) for word in WORDS},
         "reply": {"words": list(check.reply.words), "nonfinite": check.reply.nonfinite},
-        "source": check.source() if check.source else "",
+        "source": check.source().removesuffix(", run live") if check.source else "",
         "cases": [_case_as_data(check, case) for case in check.visible],
     }
 
@@ -81,8 +81,13 @@ def _check(data):
         calls=lambda values: of_case[encode(values)]["calls"],
         reply=Reply(tuple(data["reply"]["words"]), data["reply"]["nonfinite"]),
         causes=tuple(Cause(text, _looks_like(text, of_case)) for text in texts),
-        source=lambda: "; ".join(filter(None, [data["source"], "in class, on cases that you don't see, too"])),
+        source=lambda: _source(data["source"]),
     )
+
+
+def _source(maker):
+    """Where the expected values come from, in words."""
+    return f"answers kept in this copy{maker and f', from {maker}'}; in class there are further cases"
 
 
 def _looks_like(text, of_case):

@@ -143,9 +143,9 @@ def _grade(to_do, store, drawn, options, tell):
     for key, (one, _, _) in waiting.items():
         if one.refused:
             keep(key, refused(one))
-    payloads = _payloads(waiting, drawn, options)
-    for key, text in _run(payloads, options, drawn, tell):
-        keep(key, json.loads(text))
+    if any(not one.refused for one, _, _ in waiting.values()):
+        for key, text in _run(_payloads(waiting, drawn, options), options, drawn, tell):
+            keep(key, json.loads(text))
     return changes
 
 
@@ -167,7 +167,10 @@ def _run(payloads, options, drawn, tell):
     if options.scheduler:
         from exercises.grader.classroom import cluster
 
-        return cluster.run(payloads, options.scheduler, tell)
+        return cluster.run(payloads, options.scheduler, tell, options.unsafe)
+    kind, reason = workers.probe()
+    if kind == "none" and not options.unsafe:
+        raise workers.NoSandbox(reason)
     if options.jobs == 1:
         for unit, text in drawn.items():
             job.work_out(unit, text)
