@@ -37,7 +37,7 @@ def _use(folder):
 def grade(options):
     from exercises.grader.classroom.run import Options
     from exercises.grader.classroom.run import grade as grade_class
-    from exercises.grader.classroom.workers import NoSandbox
+    from exercises.grader.sandbox import NoSandbox
 
     try:
         scores = grade_class(Options(

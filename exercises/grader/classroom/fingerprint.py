@@ -6,6 +6,7 @@ is to parse it. Two notebooks that share most of their numbers share most of the
 
 import hashlib
 import io
+import json
 import keyword
 import tokenize
 
@@ -14,10 +15,10 @@ MOST = 1500  # numbers kept of a notebook: the smallest, so that two notebooks k
 LONGEST_CELL = 200_000
 
 
-def of_cells(cells, extra, metadata=()):
+def of_cells(cells, extra):
     """`cells` and `extra["starter"]` are lists of cells' sources → the numbers, and hints."""
     own = _shingles(cells) - _shingles(extra["starter"])
-    return {"numbers": sorted(own)[:MOST], "hints": _hints(metadata)}
+    return {"numbers": sorted(own)[:MOST], "hints": _hints(extra["notebook"])}
 
 
 def _shingles(cells):
@@ -44,11 +45,11 @@ def _tokens(cell):
     return tokens
 
 
-def _hints(metadata):
-    """What nbgrader's metadata say of the notebook: never trusted, only shown to the instructor."""
+def _hints(text):
+    """Names of graded cells, as nbgrader's metadata tell them: never trusted, only shown to the instructor."""
     try:
-        marks = [about.get("nbgrader") for about in metadata]
+        marks = [cell.get("metadata", {}).get("nbgrader") for cell in json.loads(text)["cells"]]
         names = [str(mark["grade_id"])[:60] for mark in marks if mark and mark.get("grade")]
-    except (KeyError, TypeError, AttributeError):
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return []
     return names[:40]

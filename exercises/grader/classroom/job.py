@@ -59,7 +59,8 @@ def _grade(job):
         raise RuntimeError(f"this machine has other checks of {unit} than the one that sends the submissions")
     checks = checks_of(unit, job["cases"])
     with workers.open_box(unit, job["unsafe"]) as box:
-        box.load(base64.b64decode(job["notebook"]))
+        notebook = base64.b64decode(job["notebook"])
+        box.load(notebook)
         rejected = box.status == "rejected"
         marked = [nothing(check) if rejected else told(mark(check, box.ask)) for check in checks]
         return {
@@ -74,7 +75,7 @@ def _grade(job):
             "environment": environment(),
             "student_seconds": round(box.seconds, 3),
             "student_cpu": round(box.cpu, 3),
-            "fingerprint": {} if rejected else workers.fingerprint(box, job["starter"]),
+            "fingerprint": {} if rejected else workers.fingerprint(box, notebook, job["starter"]),
         }
 
 

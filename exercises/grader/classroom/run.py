@@ -170,7 +170,7 @@ def _run(payloads, options, drawn, tell):
         return cluster.run(payloads, options.scheduler, tell, options.unsafe)
     kind, reason = workers.probe()
     if kind == "none" and not options.unsafe:
-        raise workers.NoSandbox(reason)
+        raise workers.sandbox.NoSandbox(reason)
     if options.jobs == 1:
         for unit, text in drawn.items():
             job.work_out(unit, text)

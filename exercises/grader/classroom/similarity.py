@@ -8,7 +8,7 @@ from collections import Counter, defaultdict
 
 SHARE = 0.8  # of the smaller one's numbers that must be in both
 LEAST = 60  # numbers below which everyone's solution looks alike
-COMMON = 0.1  # of the class: what more than this share wrote is what the exercise suggests
+COMMON, FEW = 0.2, 20  # what more than this share of the class, and than so many, wrote is what the task suggests
 MOST_PAIRS = 500
 
 
@@ -41,7 +41,7 @@ def _same(numbers_of):
 def _without_common(numbers_of):
     """Without what many wrote, where the class is large enough to tell."""
     counts = Counter(number for numbers in numbers_of.values() for number in numbers)
-    most = max(8, COMMON * len(numbers_of))
+    most = max(FEW, COMMON * len(numbers_of))
     return {
         one: {number for number in numbers if counts[number] <= most} for one, numbers in numbers_of.items()
     }
