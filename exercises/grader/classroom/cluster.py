@@ -19,6 +19,7 @@ from exercises.grader.classroom.files import Trouble, digest, line
 
 AHEAD = 4  # tasks for each thread of the cluster that wait there, so that no worker idles
 RETRIES = 3  # by Dask, where a task raised; ours never do, so it is the machine's fault
+LEAST_WORKERS = 1
 ONE_AT_A_TIME = threading.Lock()
 PATIENCE = 60.0  # seconds until a scheduler must answer, and until the first worker must be there
 
@@ -48,7 +49,7 @@ def run(payloads, address, tell=print, unsafe=False):
             return future
 
         first = [future for _ in range(AHEAD * threads) if (future := submit()) is not None]
-        finished = as_completed(first)
+        finished = as_completed(first, loop=client.loop)
         for future in finished:
             if future.key not in done:
                 done.add(future.key)
@@ -92,7 +93,7 @@ def canary():
 def _ready(client, unsafe, tell):
     """How many threads the cluster has, once each worker has shown that its sandbox holds."""
     try:
-        client.wait_for_workers(1, timeout=PATIENCE)
+        client.wait_for_workers(LEAST_WORKERS, timeout=PATIENCE)
     except TimeoutError:
         raise Trouble("The scheduler has no worker: start one, with `dask worker ADDRESS`.") from None
     kinds = {}
