@@ -72,7 +72,9 @@ class PlainBox:
     def load(self, data):
         PlainBox.loaded += 1
         try:
-            self.cells = ["".join(cell["source"]) for cell in json.loads(data)["cells"]]
+            self.cells = [
+                "".join(cell["source"]) for cell in json.loads(data)["cells"] if cell["cell_type"] == "code"
+            ]
         except (ValueError, KeyError, TypeError):
             self.status, self.reason = "rejected", "this is no notebook"
             return

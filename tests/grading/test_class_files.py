@@ -68,12 +68,12 @@ def test_a_link_to_a_students_folder_is_left_out(tmp_path):
     assert set(scores) == {"ada"} and "'eve'" in told and "notes.txt" in told and "\x1b" not in told
 
 
-@pytest.mark.parametrize("name", ["", ".", "..", "-rf", "a/b", "a\\b", "a\nb", "a\x00b", "a\u202eb", "x" * 101, "a ", "a:b", 'a"b'])
+@pytest.mark.parametrize("name", ["", ".", "..", "-rf", "a/b", "a\\b", "a\nb", "a\x00b", "a\u202eb", "x" * 101, "a "])
 def test_names_that_are_no_names(name):
     assert files.name_fault(name)
 
 
-@pytest.mark.parametrize("name", ["ada", "Müller, Jürgen", "o'neil", "李雷", "=1+1", "<b>", "a.b@c.de", "s-1"][:5] + ["a.b@c.de"])
+@pytest.mark.parametrize("name", ["ada", "Müller, Jürgen", "o'neil", "李雷", "=1+1", '<b>"&', "a.b@c.de", "s-1"])
 def test_names_that_are(name):
     assert not files.name_fault(name)
 

@@ -2,6 +2,8 @@
 
 import math
 
+from exercises.grader.classroom.page import text
+
 WIDTH, HEIGHT, MARGIN = 560, 200, 46
 EXPECTED, GOT = "#0072B2", "#D55E00"  # blue and vermilion: apart for colour-blind eyes too
 FAR = 4.0  # heights of the expected curve that a wrong one may leave the picture by
@@ -31,7 +33,7 @@ def svg(curves, label):
     )
     return (
         f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" role="img" font-size="11" fill="currentColor" '
-        f'aria-label="{label}: expected, a full line, and got, a dashed line, over the index">{ticks}'
+        f'aria-label="{text(label)}: expected, a full line, and got, a dashed line, over the index">{ticks}'
         f'<path d="M{MARGIN} 10V{HEIGHT - 22}H{WIDTH - 8}" fill="none" stroke="currentColor" stroke-opacity=".4"/>'
         f'{"".join(lines)}<text x="{MARGIN}" y="{HEIGHT - 6}">index 0</text>'
         f'<text x="{WIDTH - 8}" y="{HEIGHT - 6}" text-anchor="end">{last}</text>'
