@@ -78,8 +78,8 @@ def supported():
     return f"{OLDEST[0]}.{OLDEST[1]} to {NEWEST[0]}.{NEWEST[1]}"
 
 
-def install_advice(venv_of="3"):
-    """How this system installs a suitable Python, or on Debian the part of one that makes environments."""
+def install_advice(venv_of=None):
+    """How this system installs a suitable Python, or on Debian the part that a Python lacks for our use."""
     if WINDOWS:
         return "winget install Python.Python.3.12"
     if sys.platform == "darwin":
@@ -88,8 +88,10 @@ def install_advice(venv_of="3"):
         system = Path("/etc/os-release").read_text(encoding="utf-8").lower()
     except OSError:
         system = ""
-    older = " (where that is too old: python3.11 python3.11-venv)" if venv_of == "3" else ""
-    families = {"debian|ubuntu": f"sudo apt install python{venv_of} python{venv_of}-venv{older}",
+    debian = "python3 python3-venv (where that is too old: python3.11 python3.11-venv)"
+    if venv_of:
+        debian = f"python{venv_of}-venv"
+    families = {"debian|ubuntu": "sudo apt install " + debian,
                 "fedora|rhel": "sudo dnf install python3.12", "arch": "sudo pacman -S python",
                 "suse": "sudo zypper install python312"}
     for family, command in families.items():
@@ -245,12 +247,13 @@ def install(packages, wheels=None):
 
     def progress(log):
         total = pins - log.count("Ignoring ")       # those of other systems and Pythons
-        if "Collecting " not in log:
+        fetched = len(re.findall(r"^(?:Collecting|Processing) ", log, re.MULTILINE))
+        if not fetched:
             return "Looking for packages"
         if "Installing collected packages" in log:
             verb, done = "Installing", len(list(packages.glob("*.dist-info"))) - before
         else:
-            verb, done = "Fetching", log.count("Collecting ")
+            verb, done = "Fetching", fetched
         return f"{verb} packages: {max(0, min(done, total))} of {total}"
 
     quiet = ["--no-input", "--disable-pip-version-check", "--progress-bar", "off"]
@@ -321,13 +324,14 @@ def run(python, arguments, **changes):
 # --- The student's copies ---------------------------------------------------------------------------------
 
 def originals():
-    """What a student works in: notebooks and exercises, by their paths in the course."""
-    files = [*ROOT.glob("notebooks/[0-9]*.ipynb"), *ROOT.glob("exercises/[0-9]*/[0-9]*.ipynb")]
+    """What work/ has copies of: notebooks, exercises, and the pages that they link to."""
+    files = [*ROOT.glob("notebooks/[0-9]*.ipynb"), *ROOT.glob("exercises/[0-9]*/[0-9]*.ipynb"),
+             *ROOT.glob("lectures/*.md"), *ROOT.glob("lectures/figures/*.*")]
     return sorted(file.relative_to(ROOT).as_posix() for file in files)
 
 
 def units(folder=""):
-    return sorted({Path(name).stem for name in originals() if name.startswith(folder)})
+    return sorted({Path(name).stem for name in originals() if re.match(folder + r".*\.ipynb$", name)})
 
 
 def unit_named(text, folder=""):
@@ -393,21 +397,20 @@ def make_copies():
         elif original not in (record["copies"].get(name), fingerprint(WORK / name)):
             newer.append(name)
     write_record(record)
-    link_pages()
+    link_modules()
     return newer
 
 
-def link_pages():
-    """Lets the links from notebooks to pages and modules lead somewhere in work/; nothing else needs this."""
-    for name in ("lectures", "reference"):
-        link = WORK / name
-        if (ROOT / name).is_dir() and not os.path.lexists(str(link)):
-            with contextlib.suppress(OSError):
-                if WINDOWS:
-                    import _winapi
-                    _winapi.CreateJunction(str(ROOT / name), str(link))
-                else:
-                    link.symlink_to(Path("..") / name)
+def link_modules():
+    """Lets the links from pages to modules lead somewhere within work/. Nothing else needs this."""
+    link = WORK / "reference"
+    if not os.path.lexists(str(link)):
+        with contextlib.suppress(OSError):
+            if WINDOWS:
+                import _winapi
+                _winapi.CreateJunction(str(ROOT / "reference"), str(link))
+            else:
+                link.symlink_to(Path("..") / "reference")
 
 
 # --- The commands -----------------------------------------------------------------------------------------
@@ -416,7 +419,7 @@ def lab(options, _):
     python = course_python(options.wheels)
     newer = make_copies()
     if newer:
-        print(f"There are new versions of {', '.join(newer)}; to get them: {ME} update")
+        print(f"There are new versions of {len(newer)} files in work/; to get them: {ME} update")
     settle_jupyter()
     first = next((name for name in originals() if name.startswith("notebooks/")), None)
     command = ["-m", "jupyterlab", str(WORK), "--ServerApp.log_level=ERROR", "--LabApp.log_level=ERROR",
@@ -424,7 +427,7 @@ def lab(options, _):
                # one kernel, the environment's, whatever a notebook or the user's own Jupyter say
                "--KernelSpecManager.allowed_kernelspecs={'python3'}",
                "--MultiKernelManager.default_kernel_name=python3",
-               "--KernelManager.transport_encryption=auto",     # else the kernel warns that others might listen
+               "--KernelManager.transport_encryption=auto",     # else kernels warn about listeners
                # nothing asks the network
                "--LabApp.news_url=None", "--LabApp.check_for_updates_class=jupyterlab.NeverCheckForUpdate",
                "--LabApp.extension_manager=readonly"]

@@ -2,7 +2,7 @@
 
 Rows are dictionaries: case, method, settings (with engine, None for ours, and steps), cpu_s, error, status.
 
-Slide S18; lectures/02_equation_of_motion.md.
+Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
 
 import numpy as np

@@ -13,7 +13,7 @@ The cache lies beside this file, in a folder named by a hash of the package's so
 because Numba alone does not notice that a helper in *another* module was edited, and would go on serving the
 old answer.
 
-Serves every slide; lectures/02_equation_of_motion.md introduces it.
+Serves every slide from S4 and S9 on; lectures/02_equation_of_motion.md.
 """
 
 import ast
@@ -99,10 +99,27 @@ def _bind_compiled(function, *functions):
     tree = ast.parse(textwrap.dedent(inspect.getsource(source)))
     ast.increment_lineno(tree, source.__code__.co_firstlineno - 1)  # so that a traceback shows the right line
     definition = tree.body[0]
+    definition.decorator_list.clear()
+    _check_unedited(source, _defined(tree, definition, source.__globals__))
     fixed = [argument.arg for argument in definition.args.args[: len(functions)]]
     del definition.args.args[: len(functions)]
-    definition.decorator_list.clear()
     definition.name = "_".join([source.__name__, *(plain(f).__name__ for f in functions)])
     names = {**source.__globals__, **dict(zip(fixed, functions, strict=True))}
-    exec(compile(tree, source.__code__.co_filename, "exec"), names)
-    return compiled(names[definition.name])
+    return compiled(_defined(tree, definition, names, source.__code__.co_filename))
+
+
+def _defined(tree, definition, names, file="<source>"):
+    """The function that a tree defines, with these global names."""
+    names = dict(names)
+    exec(compile(tree, file, "exec"), names)
+    return names[definition.name]
+
+
+def _check_unedited(function, in_file):
+    """RuntimeError where the file no longer says what was imported from it."""
+    parts = "co_name", "co_code", "co_consts", "co_names", "co_varnames"
+    if any(getattr(function.__code__, part) != getattr(in_file.__code__, part) for part in parts):
+        raise RuntimeError(
+            f"{function.__code__.co_filename} was edited after it was imported: restart Python (in Jupyter: "
+            f"Kernel → Restart), so that {function.__name__} is what the file says"
+        )

@@ -6,6 +6,7 @@ units, world frame. Bodies are numbered from 0 in the order in which they were a
 Slides S4–S6, S10; lectures/02_equation_of_motion.md.
 """
 
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -64,44 +65,29 @@ class Scene:
 
         Raises TypeError and ValueError, which name the argument, its value and what would be right.
         """
-        if not isinstance(shape, SHAPES):
-            names = ", ".join(kind.__name__ for kind in SHAPES)
-            raise TypeError(f"shape must be an instance of {names}, but is {shape!r}")
         d = self.dimension
-        if d not in shape.dimensions:
-            raise ValueError(
-                f"shape must fit this scene of {d} dimensions, but {shape!r} stands in {shape.dimensions[0]}"
-            )
-        if isinstance(shape, Plane) and mass is not None:
-            raise ValueError(f"mass must be left out for a Plane, which is always static, but is {mass!r}")
         static = bool(static) or isinstance(shape, Plane)
-        mass = inputs.number(
-            "mass", (0 if static else 1) if mass is None else mass, **{"least" if static else "above": 0}
-        )
-        turns = not isinstance(shape, Point)
+        turns = self._checked_shape(shape, inertia)
         body = Body(
             shape,
-            mass,
-            static,
+            mass=self._mass(shape, mass, static),
+            static=static,
             position=inputs.array("position", np.zeros(d) if position is None else position, (d,)),
             orientation=self._orientation(orientation, turns),
-            velocity=self._motion("velocity", velocity, (d,), not static, "a static body"),
+            velocity=self._motion("velocity", velocity, (d,), static and "a static body"),
             angular_velocity=self._motion(
                 "angular_velocity",
                 angular_velocity,
                 (3,) if d == 3 else (),
-                turns and not static,
-                "a static body" if turns else "a Point",
+                (static and "a static body") or (not turns and "a Point"),
             ),
             friction=inputs.number("friction", friction, least=0),
             restitution=self._restitution(restitution),
-            inertia=self._inertia(shape, mass, inertia) if turns and not static else None,
+            inertia=None,
             group=group,
         )
-        if not turns and inertia is not None:
-            raise ValueError(
-                f"inertia must be left out for a Point, which doesn't rotate, but is {inertia!r}"
-            )
+        if turns and not static:
+            body = replace(body, inertia=self._inertia(body, inertia))
         self.bodies.append(body)
         return len(self.bodies) - 1
 
@@ -188,6 +174,31 @@ class Scene:
             raise ValueError(f"{name} must be the number of a body, 0 … {len(self.bodies) - 1}, but is {i}")
         return i
 
+    def _checked_shape(self, shape, inertia):
+        """Whether such a body rotates; TypeError or ValueError for what can't stand in this scene."""
+        if not isinstance(shape, SHAPES):
+            names = ", ".join(kind.__name__ for kind in SHAPES)
+            raise TypeError(f"shape must be an instance of {names}, but is {shape!r}")
+        if self.dimension not in shape.dimensions:
+            raise ValueError(
+                f"shape must fit this scene of {self.dimension} dimensions, but {shape!r} stands in "
+                f"{shape.dimensions[0]}"
+            )
+        turns = not isinstance(shape, Point)
+        if not turns and inertia is not None:
+            raise ValueError(
+                f"inertia must be left out for a Point, which doesn't rotate, but is {inertia!r}"
+            )
+        return turns
+
+    def _mass(self, shape, mass, static):
+        """kg; 1 where nothing was said, 0 for what is static."""
+        if isinstance(shape, Plane) and mass is not None:
+            raise ValueError(f"mass must be left out for a Plane, which is always static, but is {mass!r}")
+        if mass is None:
+            return 0.0 if static else 1.0
+        return inputs.number("mass", mass, least=0) if static else inputs.number("mass", mass, above=0)
+
     def _orientation(self, value, turns):
         if value is None:
             return np.array([1.0, 0, 0, 0]) if self.dimension == 3 else 0.0
@@ -196,12 +207,12 @@ class Scene:
             raise ValueError(f"orientation must be left out for a Point, which has none, but is {value!r}")
         return angle_or_q
 
-    def _motion(self, name, value, shape, moves, what):
-        """A velocity: 0, for at rest, or an array of the given shape; () for a number."""
+    def _motion(self, name, value, shape, resting):
+        """A velocity: an array of the shape, () for a number, or 0. resting: what must be at rest."""
         value = np.zeros(shape) if np.ndim(value) == 0 and value == 0 else value
         result = inputs.array(name, value, shape) if shape else inputs.number(name, value)
-        if not moves and np.any(result):
-            raise ValueError(f"{name} must be 0 for {what}, but is {value!r}")
+        if resting and np.any(result):
+            raise ValueError(f"{name} must be 0 for {resting}, but is {value!r}")
         return result
 
     def _restitution(self, value):
@@ -209,9 +220,9 @@ class Scene:
             raise ValueError(f"restitution must be a number from 0 to 1, but is {value!r}")
         return float(value)
 
-    def _inertia(self, shape, mass, value):
+    def _inertia(self, body, value):
         if value is None:
-            return shape.inertia(mass, self.dimension)
+            return body.shape.inertia(body.mass, self.dimension)
         if self.dimension == 3:
             return checked_inertia("inertia", value)
         return inputs.number("inertia", value, above=0)

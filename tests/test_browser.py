@@ -25,6 +25,7 @@ from selenium.webdriver.support.ui import WebDriverWait
 
 ROOT = Path(__file__).resolve().parents[1]
 NOTEBOOKS = sorted(path.name for path in ROOT.glob("notebooks/[0-9]*.ipynb"))
+PAGES = sorted(path.name for path in ROOT.glob("lectures/[0-9]*.md"))
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 DRIVER = shutil.which("chromedriver")
 PATIENCE = 300      # seconds for one notebook, on a busy machine with nothing compiled yet
@@ -97,10 +98,14 @@ def browser(tmp_path_factory):
     driver.quit()
 
 
+def open_in_lab(browser, address, path):
+    parts = urllib.parse.urlsplit(address)
+    browser.get(f"{parts.scheme}://{parts.netloc}/lab/tree/{path}?{parts.query}")
+
+
 def run_all(browser, address, course, name):
     """Opens work/notebooks/`name`, runs all cells by the menu, and returns the cells as they were saved."""
-    parts = urllib.parse.urlsplit(address)
-    browser.get(f"{parts.scheme}://{parts.netloc}/lab/tree/notebooks/{name}?{parts.query}")
+    open_in_lab(browser, address, f"notebooks/{name}")
     wait = WebDriverWait(browser, 90)
     tab = f"//div[contains(@class,'lm-TabBar-tabLabel') and text()='{name}']"
     wait.until(until.presence_of_element_located((By.XPATH, tab)))
@@ -143,6 +148,20 @@ def test_notebook_runs_in_the_browser(name, browser, address, course):
     assert not errors(cells), errors(cells)[0]
     late = [cell["id"] for cell in cells if not cell["execution_count"]]
     assert not late, f"cells not run after {PATIENCE} s: {late}"
+
+
+@pytest.mark.parametrize("name", PAGES)
+def test_page_opens_as_a_page_with_its_pictures(name, browser, address, course):
+    open_in_lab(browser, address, f"lectures/{name}")
+    text = (course / "lectures" / name).read_text(encoding="utf-8")
+    pictures = len(re.findall(r"^!\[", text, re.MULTILINE))
+    widths = "return [...document.querySelectorAll('.jp-MarkdownViewer img')].map(one => one.naturalWidth)"
+
+    def all_there(_):
+        found = browser.execute_script(widths)
+        return len(found) == pictures and all(found)
+
+    WebDriverWait(browser, 90).until(all_there, f"of {pictures} pictures, not all are shown")
 
 
 def test_nothing_was_asked_of_the_network(browser, address):

@@ -219,6 +219,18 @@ def test_a_tag_by_the_package_s_front_door(root):
     assert "differs from reference.integrators.step" in "".join(drift_faults(root, PurePosixPath(LESSON)))
 
 
+def test_a_listed_package_lists_its_modules(root):
+    (root / "reference/lcp").mkdir()
+    (root / "reference/lcp/__init__.py").write_text('"""All."""\nfrom .lemke import pivot\n')
+    (root / "reference/lcp/lemke.py").write_text("def pivot():\n    return 1\n")
+    edit(root, sample.PAGE, "[bodies, integrators]", "[bodies, integrators, lcp]")
+    words = "def pivot():\n    return 1"
+    write_notebook(root / LESSON, added(TAGGED, code(words, "ref:lcp.pivot")))
+    assert faults(root) == []
+    write_notebook(root / LESSON, added(TAGGED, code(words)))
+    assert "the last version of pivot is not tagged (reference.lcp.lemke.pivot)" in "".join(faults(root))
+
+
 def test_names_inside_are_no_globals(root):
     """Arguments, local and comprehension variables, inner functions may be called what they like."""
     words = "def walk(x):\n    def f(np):\n        return np\n    return [f(accelerate) for accelerate in x]"

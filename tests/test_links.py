@@ -83,6 +83,7 @@ PLANTED = {
     "doc role": (PAGE, "Slides S4", "{doc}`gone`, slides S4", "leads nowhere"),
     "notebook's link": (LESSON, "Predict.", "[x](../gone.md)", "leads nowhere"),
     "exercise's link": (EXERCISE, "Now check.", "[x](../gone.md)", "leads nowhere"),
+    "link that copies lack": (LESSON, "Predict.", "[x](../README.md)", "is not there in work/"),
     "no front matter": (PAGE, "title: The", "# title: The", "lacks title"),
     "unreadable front matter": (PAGE, "title: The", "title: [The", "lacks title"),
     "another unit": (PAGE, f"unit: {SLUG}", "unit: 03_jacobian", "front matter says unit"),

@@ -48,57 +48,37 @@ class _Turning:
         )
 
 
+ACROSS, ALONG = 0.08, 0.03  # of the heavy top about its tip: I₁ and I₃, kg m²
+WEIGHT, ARM, HEIGHT = 9.81, 0.25, 2.0  # m g, N; l, m, from the tip to the centre of mass; H, m, see heavy_top
+
+
 def heavy_top(tilt=0.6, spin=30.0, duration=2.0, fast=False):
     """A symmetric top on a fixed tip, precessing steadily at a tilt from the vertical. Error: attitude, rad.
 
-    tilt: θ, rad; spin: ω₃ about the top's axis, rad/s; fast: the faster of the two steady precessions Ω, the
-    roots of
-
-        I₁ cos θ Ω² − I₃ ω₃ Ω + m g l = 0,      I₁, I₃ about the tip, l from the tip to the centre of mass.
+    tilt: θ, rad; spin: ω₃ about the top's axis, rad/s; fast: the faster of the two steady precessions.
 
     **How it is written without a joint.** About a fixed point, too, I ω̇ + ω × I ω = torque, with the inertia
     about that point. So the tip is the body's reference point, at rest at the origin, with the inertia about
     the tip. The torque of the weight is that of two springs of no length at rest, stiffness k, from the
     points ±l e₃ of the body to the points ∓H ẑ of the world. Each pulls by k times the distance between its
-    ends:
+    ends; with 2 k H = m g,
 
-        force  k (−H ẑ − l e₃) + k (H ẑ + l e₃) = 0,      torque  2 k l e₃ × (−H ẑ) = l e₃ × (−m g ẑ)  if 2 k
-        H = m g.
+        force   k (−H ẑ − l e₃) + k (H ẑ + l e₃) = 0,
+        torque  2 k l e₃ × (−H ẑ) = l e₃ × (−m g ẑ).
 
-    Their energy is m g l cos θ and a constant. There is no gravity in the scene, and nothing that moves the
-    tip.
+    Their energy is m g l cos θ and a constant. There is no gravity in the scene, and nothing moves the tip.
     """
     positive(spin=spin, duration=duration)
     if not 0 < tilt < np.pi / 2:
         raise ValueError(f"tilt must lie between 0 and π/2, but is {tilt!r}")
-    across, along, weight, arm, height = 0.08, 0.03, 9.81, 0.25, 2.0  # I₁, I₃ kg m²; m g N; l, H m
-    root = (along * spin) ** 2 - 4 * across * np.cos(tilt) * weight * arm
-    if root < 0:
-        least = np.sqrt(4 * across * np.cos(tilt) * weight * arm) / along
-        raise ValueError(
-            f"spin must be at least {least:.6g} rad/s for steady precession at this tilt, but is {spin!r}"
-        )
-    top = SteadyPrecession(
-        tilt, spin, 2 * weight * arm / (along * spin + (-1 if fast else 1) * np.sqrt(root))
-    )
-    axis = np.array([0.0, -np.sin(tilt), np.cos(tilt)])  # e₃ at the start
+    top = SteadyPrecession(tilt, spin, _steady_rate(tilt, spin, fast))
     scene = Scene(gravity=(0, 0, 0))
-    body = scene.add(
-        Sphere(0.2),
-        mass=1.0,
-        inertia=(across, across, along),
-        orientation=top.attitude(0.0),
-        angular_velocity=top.angular_velocity(0.0),
-    )
+    start = {"orientation": top.attitude(0.0), "angular_velocity": top.angular_velocity(0.0)}
+    body = scene.add(Sphere(0.2), mass=1.0, inertia=(ACROSS, ACROSS, ALONG), **start)
+    axis = np.array([0.0, -np.sin(tilt), np.cos(tilt)])  # e₃ at the start
     for side in (1.0, -1.0):
-        scene.spring(
-            body,
-            None,
-            weight / (2 * height),
-            length=0,
-            point_a=side * arm * axis,
-            point_b=(0, 0, -side * height),
-        )
+        ends = {"point_a": side * ARM * axis, "point_b": (0, 0, -side * HEIGHT)}
+        scene.spring(body, None, WEIGHT / (2 * HEIGHT), length=0, **ends)
     return Case(
         "heavy_top",
         scene,
@@ -109,6 +89,18 @@ def heavy_top(tilt=0.6, spin=30.0, duration=2.0, fast=False):
         "Goldstein, Classical Mechanics, section 5-7: steady precession",
         "Spin and precession differ many times in speed, and any error in the rates starts a nodding.",
     )
+
+
+def _steady_rate(tilt, spin, fast):
+    """Ω from I₁ cos θ Ω² − I₃ ω₃ Ω + m g l = 0: the smaller root, or the larger one for ``fast``."""
+    momentum, moment = ALONG * spin, WEIGHT * ARM
+    least = np.sqrt(4 * ACROSS * np.cos(tilt) * moment)
+    if momentum < least:
+        raise ValueError(
+            f"spin must be at least {least / ALONG:.6g} rad/s to precess steadily at this tilt, but is {spin}"
+        )
+    root = np.sqrt(momentum**2 - least**2)
+    return 2 * moment / (momentum - root if fast else momentum + root)
 
 
 class SteadyPrecession:

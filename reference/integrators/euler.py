@@ -50,21 +50,19 @@ def symplectic_euler_position_first(force, system, t, h, state, work):
 
 @compiled
 def implicit_gyroscopic(force, system, t, h, state, work):
-    """``symplectic_euler`` with the gyroscopic term taken at the end of the step, by one step of Newton's
-    method.
+    """Velocity first, with the gyroscopic term at the end of the step, by one step of Newton's method.
 
-    Stable at any h, but it loses energy. Source: Catto, Numerical Methods, GDC 2015; Bullet's rigid bodies do
-    the same.
+    Stable at any h, but it loses energy. Source: Catto, Numerical Methods, GDC 2015; the rigid bodies of
+    Bullet do the same: first the gyroscopic term alone, from the old ω, then h I⁻¹ τ.
     """
     rate = work.rate
     force(system, t, state, rate.v, rate.ω)
     solve_mass(system, state.q, rate.v, rate.ω)
+    for i in range(0 if planar(state) else len(state.q)):
+        q = quaternion(state.q, i)
+        s = gyroscopic_newton_step(rotate_back(q, vector(state.ω, i)), vector(system.inertia, i), h)
+        store(state.ω, i, rotate(q, s))
     add_scaled(state.u, h, rate.u)
-    if not planar(state):
-        for i in range(len(state.q)):
-            s, q = vector(state.ω, i), quaternion(state.q, i)
-            s = gyroscopic_newton_step(rotate_back(q, s), vector(system.inertia, i), h)
-            store(state.ω, i, rotate(q, s))
     drift(state, h)
 
 

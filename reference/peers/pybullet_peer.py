@@ -16,8 +16,8 @@ It has two kinds of body, which differ in the gyroscopic term (setting ``body``;
 off, silently and wrongly. The adapter refuses a scene that starts there.
 
 **Damping** d is .04 by default for a multibody, the extra force −m v d (1 + |v|), and likewise for rotation:
-at 3 m/s it takes 16 % of the speed a second. A rigid body has none by default; if given, it multiplies v and ω
-by (1 − d)^h. Both are set to 0 here. Sleeping is off by default, and switched off again.
+at 3 m/s it takes 16 % of the speed a second. A rigid body has none by default; if given, it multiplies v and
+ω by (1 − d)^h. Both are set to 0 here. Sleeping is off by default, and switched off again.
 
 **Setting up.** ``changeDynamics(mass=…)`` alone puts the shape's inertia back, and ``localInertiaDiagonal``
 alone takes the mass of a rigid body that has a shape: mass and inertia are given together, damping in a call
@@ -51,6 +51,7 @@ from ..scene import Unsupported
 from ..shapes import Point
 from .engine import Engine, Peer
 from .forces import Forces
+from .quiet import silence
 
 _multiply, _conjugate = plain(multiply), plain(conjugate)
 _NO_LIMIT = 1e300  # m/s and rad/s
@@ -60,7 +61,8 @@ class PybulletPeer(Peer):
     """A scene in space, in a pybullet client of its own, without shapes, since nothing can touch."""
 
     def __init__(self, engine, scene, dt, settings):
-        import pybullet
+        with silence():
+            import pybullet
 
         super().__init__(engine, scene, dt, settings)
         self.forces = Forces(scene, scene.springs, scene.drags)

@@ -2,8 +2,9 @@
 
 **The integrator is symplectic Euler, position first.** One ``space.step(h)`` is, in this order,
 
-    x ← x + h v,  φ ← φ + h ω;    v ← damping^h v + h (g + f/m),  ω ← damping^h ω + h τ/I;    then constraints
-    and contact.
+    x ← x + h v,  φ ← φ + h ω;    v ← damping^h v + h (g + f/m),  ω ← damping^h ω + h τ/I;
+
+then constraints and contact.
 
 All numbers are doubles. ``space.damping`` is 1 by default, no damping, and it is the factor that is left
 after one second. Bodies don't sleep by default. ``body.force`` and ``body.torque`` are used in the velocity
@@ -27,7 +28,8 @@ second), which it has only for all bodies alike: then c/m must be the same for e
 drag)/I for what rotates.
 
 How it was found: one step from given numbers, done by hand, agrees to the last bit; 5 steps of spring and
-damper in closed form agree to 5e-16 for (k, c) = (5, 0), (5, 1), (0, 1), (500, 30). The tests repeat both.
+damper in closed form agree to 5e-16 for (k, c) = (5, 0), (5, 1), (0, 1), (500, 30), on one body and on two.
+The tests repeat it.
 
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """

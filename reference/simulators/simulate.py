@@ -3,6 +3,9 @@
 Slides S3, S9; lectures/02_equation_of_motion.md.
 """
 
+from contextlib import nullcontext
+from functools import partial
+
 import numpy as np
 
 from .. import inputs
@@ -44,6 +47,8 @@ class Simulation:
         self.bodies = Bodies(scene)
         self.status, self.reason = "ok", ""
         self._family = SIMULATORS[chosen.simulator](self.bodies, scene.user_forces, chosen)
+        # the plain form of the loops would warn of what the status will tell; the compiled form can't
+        self._silence = nullcontext if self.settings["compiled"] else partial(np.errstate, all="ignore")
         self._origin, self._done = 0.0, 0  # when it started, and substeps done since
         if start is not None:
             self._origin = _checked_start(start, self.bodies)
@@ -93,7 +98,7 @@ class Simulation:
         if self.status != "ok":
             raise ValueError(f"this simulation can't go on: {self.reason}")
         wanted, every, h = steps * self.substeps, self.record_every * self.substeps, self.dt / self.substeps
-        with np.errstate(all="ignore"):  # the plain form of the loops warns of what the status will tell
+        with self._silence():
             done = self._family.advance(self._origin, self._done, h, wanted, every, record, solves)
         self._done += done
         if done < wanted:

@@ -75,7 +75,7 @@ def plot_convergence(dts, errors, guides=None, axes=None, ylabel="error"):
     for name, order in (guides or {}).items():
         _draw_guide(axes, dts, errors[name], order)
     axes.set(xlabel="time step h (s)", ylabel=ylabel)
-    axes.legend()
+    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))  # beside the axes, where it hides nothing
     return axes
 
 
@@ -106,7 +106,7 @@ def plot_series(time, series, ylabel, axes=None, log=False):
         _check_shape(f"series[{name!r}]", values, when)
         (axes.semilogy if log else axes.plot)(when, values, label=name)
     axes.set(xlabel="time (s)", ylabel=ylabel)
-    axes.legend()
+    axes.legend(loc="upper left", bbox_to_anchor=(1, 1))  # beside the axes, where it hides nothing
     return axes
 
 

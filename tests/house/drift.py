@@ -310,9 +310,9 @@ def tag_faults(root, file):
     """A lesson arrives at the reference: it has tagged cells, they are of the page's modules, and a function
     of those modules that the lesson grows ends in a tagged cell."""
     package, found = Package(root), cells(Path(root) / file)
-    modules = {
-        tree.module_name(m) for m in tree.page_modules(root, PurePosixPath("lectures", f"{file.stem}.md"))
-    }
+    page = PurePosixPath("lectures", f"{file.stem}.md")
+    listed = {tree.module_name(module) for module in tree.page_modules(root, page)}
+    modules = {m for m in package.files if any((m + ".").startswith(name + ".") for name in listed)}
     tags = [tag for cell in found for tag in cell.tags if TAG.fullmatch(tag)]
     faults = [] if tags else [f"{file}: no cell is tagged ref:module.function"]
     for tag in tags:

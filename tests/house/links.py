@@ -126,6 +126,8 @@ def link_faults(root):
     for file, words in sources(root).items():
         for link in links(words):
             fault = _target_fault(root, file, link.target, files, folders, known)
+            if fault is None and file.suffix == ".ipynb":
+                fault = _copy_fault(file, link.target)
             if fault:
                 faults.append(f"{file}: the link to {link.target!r} {fault}")
             if link.alt is not None and len(link.alt.strip()) < 5:
@@ -155,6 +157,19 @@ def _target_fault(root, file, target, files, folders, known):
         if unquote(parts.fragment) not in known[path]:
             return f"names a place that {path} does not have"
     return None
+
+
+def _copy_fault(file, target):
+    """Students read a notebook as a copy in work/, beside other copies, lectures/ and reference/."""
+    parts = urlsplit(target)
+    path = PurePosixPath(posixpath.normpath(posixpath.join(file.parent.as_posix(), parts.path)))
+    if parts.scheme or not parts.path or path.parts[0] in ("lectures", "reference"):
+        return None
+    return (
+        None
+        if path in (tree.notebook_of(path.stem), tree.exercise_of(path.stem))
+        else "is not there in work/"
+    )
 
 
 def linked_from(file, words):

@@ -235,6 +235,7 @@ def run(root, file, folder, timeout=300):
     book = nbformat.read(Path(root) / file, as_version=4)
     book.cells.append(nbformat.v4.new_code_cell("import time as _t; print(_t.process_time())"))
     environment = dict(os.environ, PYTHONPATH=str(Path(root).resolve()), IPYTHONDIR=str(folder / ".ipython"))
+    environment.pop("MPLBACKEND", None)  # pictures as in the browser, though other tests draw none
     client = NotebookClient(
         book,
         timeout=timeout,

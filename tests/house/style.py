@@ -13,18 +13,19 @@ from urllib.parse import urlsplit
 from . import tree
 
 # DESIGN, section 2: each module imports only from its own line or those above. A name covers a package.
-# Beside DESIGN's modules: inputs (what a user may hand in), inertia (of a shape), forces (f_e), bench_report.
+# Beside DESIGN's modules: inputs (what a user hands in), inertia (of a shape), declared (a scene's parts),
+# layout (a scene as arrays), forces (f_e), the methods and the report of the bench.
 LAYERS = (
     ("compiled", "inputs"),
-    ("rotation", "inertia", "shapes", "joints", "scene"),
-    ("bodies", "forces", "integrators"),
+    ("rotation", "inertia", "shapes", "joints", "declared", "scene"),
+    ("bodies", "layout", "forces", "integrators"),
     ("collision", "contacts", "rows", "equation"),
     ("lcp",),
     ("correction",),
     ("trajectory",),
     ("simulators",),
     ("continuum",),
-    ("cases", "peers", "measure", "bench", "bench_report", "view"),
+    ("cases", "peers", "measure", "bench", "bench_methods", "bench_report", "view"),
 )
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 

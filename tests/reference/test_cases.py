@@ -1,5 +1,7 @@
 """Each case's exact answer against an independent integration, and our integrators' order on it."""
 
+import itertools
+
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
@@ -25,94 +27,94 @@ ALL = [(name, {"dimension": d}) for name in BOTH for d in (2, 3)] + [
 IDS = [f"{name}-{'-'.join(map(str, parameters.values()))}" for name, parameters in ALL]
 
 
-def newton_euler(scene):
-    """ẏ of all bodies of a scene, written out with NumPy and 3 × 3 matrices: shares no code with the
-    reference.
+class NewtonEuler:
+    """ẏ of all bodies of a scene, with NumPy and 3 × 3 matrices: shares no code with the integrators.
 
     y: for each body x (3,), R (9,), v (3,), ω (3,); a planar scene is a spatial one that happens to be flat.
     """
-    flat = scene.dimension == 2
 
-    def solid(vector):
-        return np.append(vector, 0.0) if flat else np.asarray(vector)
+    def __init__(self, scene):
+        self.scene, self.flat = scene, scene.dimension == 2
+        bodies = scene.bodies
+        self.turns = [not isinstance(body.shape, Point) for body in bodies]
+        self.mass = np.array([body.mass for body in bodies])
+        self.inertia = [
+            (body.inertia * np.eye(3) if self.flat else body.inertia) if turns else np.eye(3)
+            for body, turns in zip(bodies, self.turns, strict=True)
+        ]
+        self.start = np.concatenate([self.row(body) for body in bodies])
+        self.ends = [
+            ((s.a, self.arm(s.a, s.point_a)), (s.b, self.arm(s.b, s.point_b))) for s in scene.springs
+        ]
 
-    turning = [not isinstance(body.shape, Point) for body in scene.bodies]
-    inertia = [
-        np.eye(3) if not turns else body.inertia * np.eye(3) if flat else body.inertia
-        for body, turns in zip(scene.bodies, turning, strict=True)
-    ]
+    def solid(self, vector):
+        return np.append(vector, 0.0) if self.flat else np.asarray(vector)
 
-    def matrix(angle_or_quaternion):
-        if not flat:
-            return rotation_matrix(angle_or_quaternion)
-        c, s = np.cos(angle_or_quaternion), np.sin(angle_or_quaternion)
+    def matrix(self, orientation):
+        if not self.flat:
+            return rotation_matrix(orientation)
+        c, s = np.cos(orientation), np.sin(orientation)
         return np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
 
-    start = [
-        np.concatenate([
-            solid(b.position), matrix(b.orientation).ravel(), solid(b.velocity),
-            [0, 0, b.angular_velocity] if flat else b.angular_velocity,
-        ])
-        for b in scene.bodies
-    ]  # fmt: skip
-    arms = [
-        [None if i is None else matrix(scene.bodies[i].orientation).T @ solid(p - scene.bodies[i].position)
-         for i, p in ((s.a, s.point_a), (s.b, s.point_b))]
-        for s in scene.springs
-    ]  # fmt: skip
+    def row(self, body):
+        spin = [0, 0, body.angular_velocity] if self.flat else body.angular_velocity
+        R = self.matrix(body.orientation).ravel()
+        return np.concatenate([self.solid(body.position), R, self.solid(body.velocity), spin])
 
-    def rate(t, y):
-        y = y.reshape(-1, 18)
-        x, R, v, ω = y[:, :3], y[:, 3:12].reshape(-1, 3, 3), y[:, 12:15], y[:, 15:]
-        f = np.array([b.mass * solid(scene.gravity) for b in scene.bodies])
+    def arm(self, i, point):
+        """In the body's frame; in the world's where the spring is fixed there."""
+        if i is None:
+            return self.solid(point)
+        body = self.scene.bodies[i]
+        return self.matrix(body.orientation).T @ self.solid(point - body.position)
+
+    def force(self, x, R, v, ω):
+        scene = self.scene
+        f = self.mass[:, None] * self.solid(scene.gravity)
         τ = np.zeros_like(f)
         for i, (linear, angular) in scene.drags.items():
             f[i] -= linear * v[i]
             τ[i] -= angular * ω[i]
-        for s, arm in zip(scene.springs, arms, strict=True):
-            r = [None if i is None else R[i] @ a for i, a in zip((s.a, s.b), arm, strict=True)]
-            ends = [
-                solid(p) if i is None else x[i] + k
-                for i, k, p in ((s.a, r[0], s.point_a), (s.b, r[1], s.point_b))
+        for spring, ends in zip(scene.springs, self.ends, strict=True):
+            arms = [a if i is None else R[i] @ a for i, a in ends]
+            (p, q), still = (
+                [r if i is None else x[i] + r for (i, _), r in zip(ends, arms, strict=True)],
+                0 * x[0],
+            )
+            speed = [
+                still if i is None else v[i] + np.cross(ω[i], r) for (i, _), r in zip(ends, arms, strict=True)
             ]
-            speeds = [
-                np.zeros(3) if i is None else v[i] + np.cross(ω[i], k) for i, k in ((s.a, r[0]), (s.b, r[1]))
-            ]
-            span = ends[1] - ends[0]
-            n = span / np.linalg.norm(span)
-            pull = s.stiffness * (np.linalg.norm(span) - s.length) + s.damping * n @ (speeds[1] - speeds[0])
-            for i, k, sign in ((s.a, r[0], 1), (s.b, r[1], -1)):
+            n = (q - p) / np.linalg.norm(q - p)
+            stretch = np.linalg.norm(q - p) - spring.length
+            pull = (spring.stiffness * stretch + spring.damping * n @ (speed[1] - speed[0])) * n
+            for (i, _), r, sign in zip(ends, arms, (1, -1), strict=True):
                 if i is not None:
-                    f[i] += sign * pull * n
-                    τ[i] += np.cross(k, sign * pull * n)
-        for i in range(len(x)):
-            for j in range(len(x)):
-                if i != j and scene.gravitation:
-                    r = x[j] - x[i]
-                    f[i] += (
-                        scene.gravitation
-                        * scene.bodies[i].mass
-                        * scene.bodies[j].mass
-                        * r
-                        / np.linalg.norm(r) ** 3
-                    )
-        out = np.empty_like(y)
-        for i, body in enumerate(scene.bodies):
-            J = R[i] @ inertia[i] @ R[i].T
-            ω̇ = np.linalg.solve(J, τ[i] - np.cross(ω[i], J @ ω[i])) if turning[i] else np.zeros(3)
-            Ṙ = np.cross(ω[i], R[i].T).T
-            out[i] = np.concatenate([v[i], Ṙ.ravel(), f[i] / body.mass, ω̇])
-        return out.ravel()
+                    f[i] += sign * pull
+                    τ[i] += np.cross(r, sign * pull)
+        for i, j in itertools.permutations(range(len(x)) if scene.gravitation else (), 2):
+            r = x[j] - x[i]
+            f[i] += scene.gravitation * self.mass[i] * self.mass[j] * r / np.linalg.norm(r) ** 3
+        return f, τ
 
-    return rate, np.concatenate(start), matrix
+    def __call__(self, t, y):
+        y = y.reshape(-1, 18)
+        x, R, v, ω = y[:, :3], y[:, 3:12].reshape(-1, 3, 3), y[:, 12:15], y[:, 15:]
+        f, τ = self.force(x, R, v, ω)
+        rate = np.zeros_like(y)
+        rate[:, :3], rate[:, 12:15] = v, f / self.mass[:, None]
+        for i in np.flatnonzero(self.turns):
+            J = R[i] @ self.inertia[i] @ R[i].T
+            rate[i, 3:12] = np.cross(ω[i], R[i].T).T.ravel()  # each column of R turns with ω
+            rate[i, 15:] = np.linalg.solve(J, τ[i] - np.cross(ω[i], J @ ω[i]))
+        return rate.ravel()
 
 
 @pytest.mark.parametrize(("name", "parameters"), ALL, ids=IDS)
 def test_exact_answer_solves_the_equation_of_motion(name, parameters):
     case = CASES[name](**parameters)
     time = np.linspace(0, case.duration, 12)
-    rate, start, matrix = newton_euler(case.scene)
-    solution = solve_ivp(rate, (0, case.duration), start, "DOP853", time, rtol=1e-12, atol=1e-13)
+    judge = NewtonEuler(case.scene)
+    solution = solve_ivp(judge, (0, case.duration), judge.start, "DOP853", time, rtol=1e-12, atol=1e-13)
     y = solution.y.T.reshape(len(time), -1, 18)
     exact, d = case.exact(time), case.scene.dimension
     # The unstable top enlarges DOP853's own 1e-12 a hundredfold; twenty times that is left as margin.
@@ -124,7 +126,7 @@ def test_exact_answer_solves_the_equation_of_motion(name, parameters):
     for k in range(len(time)):
         for i in range(y.shape[1]):
             np.testing.assert_allclose(
-                matrix(exact.orientation[k, i]), y[k, i, 3:12].reshape(3, 3), atol=tolerance
+                judge.matrix(exact.orientation[k, i]), y[k, i, 3:12].reshape(3, 3), atol=tolerance
             )
 
 

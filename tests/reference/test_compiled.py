@@ -126,3 +126,22 @@ def test_the_course_runs_without_numba():
     assert python(hidden + SMALL.split("stats =")[0] + "print(simulation.state.velocity[0, 1])").split() == [
         "-0.1"
     ]
+
+
+@needs_numba
+def test_bind_refuses_a_file_that_was_edited_since_its_import(tmp_path):
+    shutil.copytree(ROOT / "reference", tmp_path / "reference", ignore=shutil.ignore_patterns("__pycache__"))
+    edit = """
+import pathlib, reference.compiled as compiled
+from reference.forces import external_force
+from reference.integrators import rk4, symplectic_euler
+file = pathlib.Path(rk4.py_func.__code__.co_filename)
+text = file.read_text(encoding="utf-8")
+file.write_text(text.replace("for stage in range(4)", "for stage in range(3)"), encoding="utf-8")
+compiled.bind(symplectic_euler, external_force)
+try:
+    compiled.bind(rk4, external_force)
+except RuntimeError as error:
+    print("restart Python" in str(error))
+"""
+    assert python(edit, tmp_path).strip() == "True"
