@@ -1,7 +1,7 @@
 """Support of the class's tests: folders of submissions, and a stand-in for the sandbox.
 
-The stand-in runs a notebook's cells in this process: fit for notebooks of our own, which tell about scores, files
-and pages. What the sandbox keeps out is tested with the sandbox itself.
+The stand-in runs a notebook's cells in this process: fit for notebooks of our own, which tell about scores,
+files and pages. What the sandbox keeps out is tested with the sandbox itself.
 """
 
 import json
@@ -30,15 +30,21 @@ def mistake(name):
 def notebook(cells, **metadata):
     """A notebook's text."""
     made = [
-        {"cell_type": "code", "id": f"c{i}", "metadata": metadata, "source": cell, "outputs": [],
-         "execution_count": None}
+        {
+            "cell_type": "code",
+            "id": f"c{i}",
+            "metadata": metadata,
+            "source": cell,
+            "outputs": [],
+            "execution_count": None,
+        }
         for i, cell in enumerate(cells)
     ]
     return json.dumps({"nbformat": 4, "nbformat_minor": 5, "metadata": {}, "cells": made})
 
 
 def plant(folder, submissions, unit=UNIT.slug):
-    """submitted/<student>/<unit>/<unit>.ipynb for each; a value is a list of cells, or the file's text or bytes."""
+    """submitted/<student>/<unit>/<unit>.ipynb for each; a value is a list of cells, or text or bytes."""
     for student, content in submissions.items():
         path = folder / "submitted" / student / unit / f"{unit}.ipynb"
         path.parent.mkdir(parents=True)

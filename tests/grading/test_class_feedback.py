@@ -24,8 +24,10 @@ HOSTILE = (
     "</pre></svg></title></style><script>alert(1)</script><img src=x onerror=alert(1)>\"' onload=x "
     "javascript:x \x1b[2J\x1b]8;;http://evil\x07\x00\x9b31m\u202e{{7*7}}&lt;&#x3c;script> <!-- ]]> \ud800"
 )
-TAGS = set("html head meta title style body h1 h2 h3 p b table tr th td pre section ul li code div svg path text "
-           "tspan rect".split())
+TAGS = set(
+    "html head meta title style body h1 h2 h3 p b table tr th td pre section ul li code div".split()  # noqa: SIM905
+    + ["svg", "path", "text", "tspan", "rect"]
+)
 
 
 class Strict(html.parser.HTMLParser):
@@ -39,7 +41,13 @@ class Strict(html.parser.HTMLParser):
         self.tags.append(tag)
         assert tag in TAGS, tag
         for name, value in attributes:
-            assert not name.startswith("on") and name not in ("src", "href", "xlink:href", "style", "action"), name
+            assert not name.startswith("on") and name not in (
+                "src",
+                "href",
+                "xlink:href",
+                "style",
+                "action",
+            ), name
             assert name == "aria-label" or not re.search("script|<", (value or "").lower())
 
     def handle_comment(self, data):
@@ -63,14 +71,29 @@ def parsed(text):
 def everything_hostile():
     """A Score all of whose texts are hostile."""
     check = {
-        **dict.fromkeys("name title source case call expected got printed complaint error tolerance why form section "
-                        "cause".split(), HOSTILE),
-        "points": 5, "earned": 0, "passed": False, "cases": 2, "failing": 1, "hidden": False, "unwritten": False,
-        "lines": [HOSTILE], "curves": [[[[0, 1.0], [1, 2.0]]], [[[0, None], [1, 1e99]]]],
+        **dict.fromkeys(
+            ("name", "title", "source", "case", "call", "expected", "got", "printed", "complaint", "error")
+            + ("tolerance", "why", "form", "section", "cause"),
+            HOSTILE,
+        ),
+        "points": 5,
+        "earned": 0,
+        "passed": False,
+        "cases": 2,
+        "failing": 1,
+        "hidden": False,
+        "unwritten": False,
+        "lines": [HOSTILE],
+        "curves": [[[[0, 1.0], [1, 2.0]]], [[[0, None], [1, 1e99]]]],
     }
     result = {
-        "status": "crashed", "reason": HOSTILE, "details": HOSTILE, "isolation": HOSTILE,
-        "environment": {HOSTILE: HOSTILE}, "checks": [check], "troubles": [[1, HOSTILE, HOSTILE, True]],
+        "status": "crashed",
+        "reason": HOSTILE,
+        "details": HOSTILE,
+        "isolation": HOSTILE,
+        "environment": {HOSTILE: HOSTILE},
+        "checks": [check],
+        "troubles": [[1, HOSTILE, HOSTILE, True]],
         "fingerprint": {"numbers": [], "hints": [HOSTILE]},
     }
     one = Submission(HOSTILE, UNIT.slug)
@@ -86,7 +109,9 @@ def test_hostile_text_in_every_field_stays_text(tmp_path):
     overview.write_all([score], [(1.0, score.submission, other)], people, tmp_path)
     assert parsed((tmp_path / "overview.html").read_text(encoding="utf-8")).count("alert(1)") >= 6
     answer = json.loads(exports.gradescope(score))
-    assert "\x1b" not in json.dumps(answer, ensure_ascii=False) and answer["tests"][0]["output_format"] == "text"
+    assert (
+        "\x1b" not in json.dumps(answer, ensure_ascii=False) and answer["tests"][0]["output_format"] == "text"
+    )
     assert "\x1b" not in (tmp_path / "similar.csv").read_text(encoding="utf-8")
 
 
@@ -108,7 +133,10 @@ def test_hostile_answers_stay_text(tmp_path, monkeypatch):
     assert "alert(1)" in words and "<script>x</script>" in words
     parsed(page_of(tmp_path, "=1+1"))
     parsed((tmp_path / "instructor/overview.html").read_text(encoding="utf-8"))
-    assert "\n02_equation_of_motion,,2" in (table := (tmp_path / "scores.csv").read_text()) and ",'=1+1," in table
+    assert (
+        "\n02_equation_of_motion,,2" in (table := (tmp_path / "scores.csv").read_text())
+        and ",'=1+1," in table
+    )
 
 
 def result_of(verdict, case=None, printed=""):
@@ -130,17 +158,38 @@ def test_a_failed_visible_check_tells_all_and_draws(tmp_path, monkeypatch):
     grade(plant(tmp_path, {"ada": solution(0, mistake("swing_damped").path)}))
     text = page_of(tmp_path, "ada")
     words = parsed(text)
-    for row in ("expected", "got", "tolerance", "why that tolerance", "likely cause", "read", "call", "What engines do"):
+    for row in (
+        "expected",
+        "got",
+        "tolerance",
+        "why that tolerance",
+        "likely cause",
+        "read",
+        "call",
+        "What engines do",
+    ):
         assert row in words
     drawing = text[text.index("<svg") : text.index("</svg>")]
     assert drawing.count("<path") == 3 and drawing.count("L") > 50
     assert len(text) < 60_000
 
 
-@pytest.mark.parametrize("got", [
-    np.full(41, np.nan), np.full(41, np.inf), np.full(41, 1e308), np.zeros((41, 3)), np.zeros(41, dtype=int),
-    np.zeros(10**6), np.full(41, -1e-320), np.zeros((0, 0)), np.zeros((5, 0)), np.float64(3), np.zeros((41, 2, 1)),
-])
+@pytest.mark.parametrize(
+    "got",
+    [
+        np.full(41, np.nan),
+        np.full(41, np.inf),
+        np.full(41, 1e308),
+        np.zeros((41, 3)),
+        np.zeros(41, dtype=int),
+        np.zeros(10**6),
+        np.full(41, -1e-320),
+        np.zeros((0, 0)),
+        np.zeros((5, 0)),
+        np.float64(3),
+        np.zeros((41, 2, 1)),
+    ],
+)
 def test_any_numbers_can_be_drawn_or_are_left_out(got):
     data = told(result_of(Verdict(1.0, 1e-9, np.linspace(0, 1, len(np.atleast_1d(got))), got)))
     drawing = curve.svg(data["curves"], "x") if "curves" in data else ""
@@ -161,7 +210,10 @@ def test_a_plot_takes_numbers_only():
 def test_the_overview_counts(tmp_path, monkeypatch):
     use_plain_boxes(monkeypatch)
     slip = mistake("body_rate_no_half")
-    plant(tmp_path, {"ada": solution(0), "bob": solution(1), "cy": solution(1, slip.path), "dee": solution(0, slip.path)})
+    plant(
+        tmp_path,
+        {"ada": solution(0), "bob": solution(1), "cy": solution(1, slip.path), "dee": solution(0, slip.path)},
+    )
     (tmp_path / "roster.csv").write_text("id\nada\nbob\ncy\ndee\neve\n")
     grade(tmp_path)
     words = parsed((tmp_path / "instructor/overview.html").read_text(encoding="utf-8"))
@@ -186,12 +238,18 @@ def renamed(cells):
 def test_near_identical_code_is_listed_and_the_starter_is_not(tmp_path, monkeypatch):
     use_plain_boxes(monkeypatch)
     starter = UNIT.starter.read_text(encoding="utf-8")
-    plant(tmp_path, {"ada": solution(0), "bob": solution(1), "cy": renamed(solution(0)), "dee": starter, "eve": starter})
+    plant(
+        tmp_path,
+        {"ada": solution(0), "bob": solution(1), "cy": renamed(solution(0)), "dee": starter, "eve": starter},
+    )
     grade(tmp_path)
     rows = (tmp_path / "instructor/similar.csv").read_text().splitlines()[1:]
     assert [row.split(",")[2:] for row in rows] == [["ada", "cy"]]
     for student in ("ada", "cy"):
-        assert "similar" not in page_of(tmp_path, student).lower() and "cy" not in page_of(tmp_path, "ada").split()
+        assert (
+            "similar" not in page_of(tmp_path, student).lower()
+            and "cy" not in page_of(tmp_path, "ada").split()
+        )
     assert not [path for path in (tmp_path / "feedback").rglob("*") if "similar" in path.name]
 
 
@@ -218,7 +276,7 @@ def test_nbgraders_metadata_are_hints():
 CANVAS = (
     "Student,ID,SIS User ID,SIS Login ID,Section,Exercise 02 (4711),Exercise 12 (4712),Final Score\n"
     ",,,,,Manual Posting,,\n    Points Possible,,,,,100,100,(read only)\n"
-    "\"Lovelace, Ada\",1,ada,ada@x,A,,,\n=cmd|' /C calc'!A0,2,u2,bob@x,A,55,,\n\"Third, C\",3,u3,cy@x,A,12,,\n"
+    '"Lovelace, Ada",1,ada,ada@x,A,,,\n=cmd|\' /C calc\'!A0,2,u2,bob@x,A,55,,\n"Third, C",3,u3,cy@x,A,12,,\n'
 )
 
 

@@ -68,12 +68,16 @@ def test_a_link_to_a_students_folder_is_left_out(tmp_path):
     assert set(scores) == {"ada"} and "'eve'" in told and "notes.txt" in told and "\x1b" not in told
 
 
-@pytest.mark.parametrize("name", ["", ".", "..", "-rf", "a/b", "a\\b", "a\nb", "a\x00b", "a\u202eb", "x" * 101, "a "])
+@pytest.mark.parametrize(
+    "name", ["", ".", "..", "-rf", "a/b", "a\\b", "a\nb", "a\x00b", "a\u202eb", "x" * 101, "a "]
+)
 def test_names_that_are_no_names(name):
     assert files.name_fault(name)
 
 
-@pytest.mark.parametrize("name", ["ada", "Müller, Jürgen", "o'neil", "李雷", "=1+1", '<b>"&', "a.b@c.de", "s-1"])
+@pytest.mark.parametrize(
+    "name", ["ada", "Müller, Jürgen", "o'neil", "李雷", "=1+1", '<b>"&', "a.b@c.de", "s-1"]
+)
 def test_names_that_are(name):
     assert not files.name_fault(name)
 
@@ -85,7 +89,9 @@ def test_text_for_a_terminal_obeys_nobody():
     assert files.line("a\nb\tc") == "a b c" and len(files.printable("x" * 10**6, 100)) < 110
 
 
-@pytest.mark.parametrize("text", ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "\r=1", "＝1", " =1"])
+@pytest.mark.parametrize(
+    "text", ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "\r=1", "＝1", " =1"]
+)
 def test_no_cell_is_a_formula(text):
     assert files.cell(text).startswith("'")
 
@@ -101,7 +107,9 @@ def test_other_cells_stay(text):
 def archive(path, members, flags=0):
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as made:
         for name, content in members:
-            about = name if isinstance(name, zipfile.ZipInfo) else zipfile.ZipInfo(name, (2026, 3, 4, 5, 6, 8))
+            about = (
+                name if isinstance(name, zipfile.ZipInfo) else zipfile.ZipInfo(name, (2026, 3, 4, 5, 6, 8))
+            )
             about.compress_type = zipfile.ZIP_DEFLATED
             made.writestr(about, content)
     return path
@@ -117,20 +125,27 @@ def files_in(folder):
 
 
 def test_canvas_and_moodle_downloads(tmp_path):
-    people = roster.Roster([
-        {"id": "ada", "canvas_id": "101", "moodle_id": "7"}, {"id": "bob", "canvas_id": "102"},
-        {"id": "cy", "first_name": "Cy", "last_name": "Twombly"},
-    ])
+    people = roster.Roster(
+        [
+            {"id": "ada", "canvas_id": "101", "moodle_id": "7"},
+            {"id": "bob", "canvas_id": "102"},
+            {"id": "cy", "first_name": "Cy", "last_name": "Twombly"},
+        ]
+    )
     slug = UNIT.slug
-    written, notes = unpack(tmp_path, [
-        (f"lovelaceada_101_5000_{slug}.ipynb", BOOK),
-        (f"babbagebob_LATE_102_5001_{slug}-1.ipynb", BOOK),
-        (f"Cy Twombly_99_assignsubmission_file_/{slug}.ipynb", BOOK),
-        ("nobody_103_5002_02_x.ipynb", BOOK),
-        ("lovelaceada_101_5000_notes.txt", "hello"),
-        (f"__MACOSX/._lovelaceada_101_5000_{slug}.ipynb", "junk"),
-        ("readme.ipynb", BOOK),
-    ], people)
+    written, notes = unpack(
+        tmp_path,
+        [
+            (f"lovelaceada_101_5000_{slug}.ipynb", BOOK),
+            (f"babbagebob_LATE_102_5001_{slug}-1.ipynb", BOOK),
+            (f"Cy Twombly_99_assignsubmission_file_/{slug}.ipynb", BOOK),
+            ("nobody_103_5002_02_x.ipynb", BOOK),
+            ("lovelaceada_101_5000_notes.txt", "hello"),
+            (f"__MACOSX/._lovelaceada_101_5000_{slug}.ipynb", "junk"),
+            ("readme.ipynb", BOOK),
+        ],
+        people,
+    )
     assert written == 3 and len(notes) == 2
     books = [name for name in files_in(tmp_path / "class" / "submitted") if name.endswith(".ipynb")]
     assert books == [f"{name}/{slug}/{slug}.ipynb" for name in ("ada", "bob", "cy")]
@@ -139,7 +154,9 @@ def test_canvas_and_moodle_downloads(tmp_path):
 
 
 def test_without_a_roster_the_archives_names_serve(tmp_path):
-    written, _ = unpack(tmp_path, [("döe_jane_55_6_02 mine.ipynb", BOOK), ("x_5_6_a.ipynb", BOOK)], unit=UNIT.slug)
+    written, _ = unpack(
+        tmp_path, [("döe_jane_55_6_02 mine.ipynb", BOOK), ("x_5_6_a.ipynb", BOOK)], unit=UNIT.slug
+    )
     names = {name.split("/")[0] for name in files_in(tmp_path / "class" / "submitted")}
     assert "x_5" in names and written >= 1
 
@@ -153,8 +170,13 @@ def test_the_last_of_several_is_taken_and_an_old_one_kept(tmp_path):
 
 
 EVIL = [
-    "../../evil_1_2_02_x.ipynb", "/etc/evil_1_2_02_x.ipynb", "..\\evil_1_2_02_x.ipynb", "C:\\evil_1_2_02_x.ipynb",
-    "a/../../evil_1_2_02_x.ipynb", "//host/evil_1_2_02_x.ipynb", "evil_1_2_../../02_x.ipynb",
+    "../../evil_1_2_02_x.ipynb",
+    "/etc/evil_1_2_02_x.ipynb",
+    "..\\evil_1_2_02_x.ipynb",
+    "C:\\evil_1_2_02_x.ipynb",
+    "a/../../evil_1_2_02_x.ipynb",
+    "//host/evil_1_2_02_x.ipynb",
+    "evil_1_2_../../02_x.ipynb",
 ]
 
 
@@ -166,7 +188,10 @@ def test_no_path_leads_out(name, tmp_path):
 
 
 def test_hostile_names_stay_inside(tmp_path):
-    unpack(tmp_path, [("..._1_2_02_x.ipynb", BOOK), ("-rf_1_3_02_x.ipynb", BOOK), ("\u202e\x1b[2J_1_4_02_x.ipynb", BOOK)])
+    unpack(
+        tmp_path,
+        [("..._1_2_02_x.ipynb", BOOK), ("-rf_1_3_02_x.ipynb", BOOK), ("\u202e\x1b[2J_1_4_02_x.ipynb", BOOK)],
+    )
     for name in files_in(tmp_path / "class" / "submitted"):
         assert not files.name_fault(name.split("/")[0])
 
@@ -186,8 +211,14 @@ def test_links_in_archives(tmp_path):
 
 def test_bombs(tmp_path):
     tracemalloc.start()
-    written, notes = unpack(tmp_path, [
-        ("a_1_2_02_x.ipynb", bytes(9_000_000)), ("b_2_2_02_x.ipynb", bytes(30_000_000)), ("c_3_2_02_x.ipynb", BOOK)])
+    written, notes = unpack(
+        tmp_path,
+        [
+            ("a_1_2_02_x.ipynb", bytes(9_000_000)),
+            ("b_2_2_02_x.ipynb", bytes(30_000_000)),
+            ("c_3_2_02_x.ipynb", BOOK),
+        ],
+    )
     assert written == 1 and len(notes) == 2
     lying = archive(tmp_path / "lying.zip", [("a_1_2_02_x.ipynb", bytes(30_000_000))]).read_bytes()
     size = (30_000_000).to_bytes(4, "little")
@@ -226,13 +257,16 @@ def test_roster_deadlines_and_manual_points(tmp_path):
     plant(tmp_path, {"ada": solution(0), "bob": solution(0)[:3], "eve": ["x = 1"]})
     for student, when in (("ada", "2026-05-03T11:00:00+00:00"), ("bob", "2026-05-03 11:00:00 UTC")):
         (tmp_path / "submitted" / student / UNIT.slug / "timestamp.txt").write_text(when + "\n")
-    (tmp_path / "roster.csv").write_text("id,first_name,last_name,email\nada,Ada,=1+1,a@b\nbob,Bob,B,\ncy,Cy,C,\n")
+    (tmp_path / "roster.csv").write_text(
+        "id,first_name,last_name,email\nada,Ada,=1+1,a@b\nbob,Bob,B,\ncy,Cy,C,\n"
+    )
     (tmp_path / "deadlines.csv").write_text(
         "unit;due;student;penalty_per_day;most_penalty\n02;2026-05-01 12:00+00:00;;10%;50\n"
         "02;2026-05-03T10:00+00:00;bob;;\n".replace(";", ",")
     )
     (tmp_path / "manual.csv").write_text(
-        "student,unit,points,comment\nbob,02,\"2,5\",well explained\nbob,2,1,\"and <b>drawn</b>\"\ncy,02,3,by mail\n"
+        'student,unit,points,comment\nbob,02,"2,5",well explained\nbob,2,1,"and <b>drawn</b>"\n'
+        "cy,02,3,by mail\n"
     )
     for _ in range(2):  # reruns keep all of it
         scores, told = grade(tmp_path)
@@ -241,23 +275,28 @@ def test_roster_deadlines_and_manual_points(tmp_path):
         assert (scores["bob"].raw, scores["bob"].penalty) == (Fraction(37, 2), Fraction(37, 20))
         assert scores["cy"].status == "missing" and scores["cy"].final == 3
         header, ada, bob, cy, _ = (tmp_path / "scores.csv").read_text().splitlines()
-        assert header.startswith("assignment,duedate,timestamp,student_id,last_name,first_name,email,raw_score,")
+        assert header.startswith(
+            "assignment,duedate,timestamp,student_id,last_name,first_name,email,raw_score,"
+        )
         assert ",ada,'=1+1,Ada,a@b,100,20,80,100,ok," in ada
         assert ",18.5,1.85,16.65,100,ok,well explained and <b>drawn</b>" in bob and ",missing,by mail" in cy
 
 
-@pytest.mark.parametrize("name, text, complaint", [
-    ("roster.csv", "name\nada\n", "column id"),
-    ("roster.csv", "id\n../etc\n", "cannot name a folder"),
-    ("roster.csv", "id\nada\nada\n", "twice"),
-    ("roster.csv", "", "empty"),
-    ("deadlines.csv", "unit,due\n02,tomorrow\n", "not a time"),
-    ("deadlines.csv", "unit,due\n77,2026-01-01\n", "no exercise"),
-    ("deadlines.csv", "unit,due,student,penalty_per_day\n02,2026-01-01,,-5\n", "0 or more"),
-    ("manual.csv", "student,unit,points\nada,02,lots\n", "not a number"),
-    ("manual.csv", "student,unit,points\nada,02,1e999\n", "not a number"),
-    ("manual.csv", "who,unit\nada,02\n", "no column student"),
-])
+@pytest.mark.parametrize(
+    "name, text, complaint",
+    [
+        ("roster.csv", "name\nada\n", "column id"),
+        ("roster.csv", "id\n../etc\n", "cannot name a folder"),
+        ("roster.csv", "id\nada\nada\n", "twice"),
+        ("roster.csv", "", "empty"),
+        ("deadlines.csv", "unit,due\n02,tomorrow\n", "not a time"),
+        ("deadlines.csv", "unit,due\n77,2026-01-01\n", "no exercise"),
+        ("deadlines.csv", "unit,due,student,penalty_per_day\n02,2026-01-01,,-5\n", "0 or more"),
+        ("manual.csv", "student,unit,points\nada,02,lots\n", "not a number"),
+        ("manual.csv", "student,unit,points\nada,02,1e999\n", "not a number"),
+        ("manual.csv", "who,unit\nada,02\n", "no column student"),
+    ],
+)
 def test_tables_with_a_fault_say_where(name, text, complaint, tmp_path):
     plant(tmp_path, {"ada": ["x = 1"]})
     (tmp_path / name).write_text(text)
@@ -266,7 +305,10 @@ def test_tables_with_a_fault_say_where(name, text, complaint, tmp_path):
 
 
 def test_penalties_are_exact():
-    due = datetime.datetime(2026, 1, 1, tzinfo=datetime.timezone.utc)
+    due = datetime.datetime(2026, 1, 1, tzinfo=datetime.UTC)
     deadline = roster.Deadline(due, Fraction(10), Fraction(25))
-    late = [deadline.penalty(Fraction(33), due + datetime.timedelta(hours=hours)) for hours in (-1, 0, 1, 24, 25, 999)]
+    late = [
+        deadline.penalty(Fraction(33), due + datetime.timedelta(hours=hours))
+        for hours in (-1, 0, 1, 24, 25, 999)
+    ]
     assert late == [0, 0, Fraction(33, 10), Fraction(33, 10), Fraction(33, 5), Fraction(33, 4)]

@@ -100,7 +100,9 @@ def test_a_new_notebook_is_graded_and_the_old_score_noted(tmp_path):
     scores, told = grade(tmp_path)
     assert "1 submissions to grade" in told and scores["ada"].final == UNIT.checks[0].points
     history = [json.loads(line) for line in (tmp_path / "instructor/history.jsonl").read_text().splitlines()]
-    assert [(line["student"], line["old"]["earned"], line["new"]["earned"]) for line in history] == [("ada", 100, 15)]
+    assert [(line["student"], line["old"]["earned"], line["new"]["earned"]) for line in history] == [
+        ("ada", 100, 15)
+    ]
 
 
 def test_regrade_lists_old_and_new_and_lowers_nothing(tmp_path, few_checks):
@@ -118,7 +120,9 @@ def test_regrade_lists_old_and_new_and_lowers_nothing(tmp_path, few_checks):
     few_checks(4)
     scores, told = grade(tmp_path, regrade=True, allow_lower=True)
     assert scores["ada"].final == 19 and "ada: 45 → 19" in told
-    what = [json.loads(line)["what"] for line in (tmp_path / "instructor/history.jsonl").read_text().splitlines()]
+    what = [
+        json.loads(line)["what"] for line in (tmp_path / "instructor/history.jsonl").read_text().splitlines()
+    ]
     assert what.count("kept the old one: the new one is lower") == 1
 
 

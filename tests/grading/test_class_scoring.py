@@ -33,26 +33,44 @@ def plain(monkeypatch):
 
 def test_a_class_gets_its_right_scores(tmp_path):
     slips = ["swing_damped", "kutta_is_rk4"]
-    plant(tmp_path, {
-        "ada": solution(0),
-        "bob": solution(1),
-        "cy": ["1/0", *solution(0, *(mistake(name).path for name in slips))],
-        "dee": UNIT.starter.read_text(encoding="utf-8"),
-        "eve": "{]",
-        "flo": b"\xff\xfe\x00",
-    })
+    plant(
+        tmp_path,
+        {
+            "ada": solution(0),
+            "bob": solution(1),
+            "cy": ["1/0", *solution(0, *(mistake(name).path for name in slips))],
+            "dee": UNIT.starter.read_text(encoding="utf-8"),
+            "eve": "{]",
+            "flo": b"\xff\xfe\x00",
+        },
+    )
     (tmp_path / "submitted" / "gus" / UNIT.slug).mkdir(parents=True)
     scores, _ = grade(tmp_path, seed=5)
     lost = {name for slip in slips for name in mistake(slip).loses}
     expected = 100 - sum(check.points for check in UNIT.checks if check.name in lost)
     assert {name: score.final for name, score in scores.items()} == {
-        "ada": 100, "bob": 100, "cy": expected, "dee": 0, "eve": 0, "flo": 0, "gus": 0
+        "ada": 100,
+        "bob": 100,
+        "cy": expected,
+        "dee": 0,
+        "eve": 0,
+        "flo": 0,
+        "gus": 0,
     }
-    assert [scores[name].status for name in ("ada", "eve", "flo", "gus")] == ["ok", "rejected", "rejected", "missing"]
-    assert "ZeroDivisionError" in feedback(tmp_path, "cy") and "ZeroDivisionError" not in feedback(tmp_path, "ada")
+    assert [scores[name].status for name in ("ada", "eve", "flo", "gus")] == [
+        "ok",
+        "rejected",
+        "rejected",
+        "missing",
+    ]
+    assert "ZeroDivisionError" in feedback(tmp_path, "cy") and "ZeroDivisionError" not in feedback(
+        tmp_path, "ada"
+    )
 
 
-@pytest.mark.parametrize("slip", [None, *UNIT.mistakes[::5]], ids=lambda slip: slip.path.stem if slip else "right")
+@pytest.mark.parametrize(
+    "slip", [None, *UNIT.mistakes[::5]], ids=lambda slip: slip.path.stem if slip else "right"
+)
 def test_the_public_seed_gives_the_score_of_notebook_and_shell(slip, tmp_path):
     cells = solution(0, *([slip.path] if slip else []))
     shell, _ = check_cells(UNIT.slug, cells, tmp_path, show=lambda text: None)
@@ -97,13 +115,18 @@ class OnlyVisible(PlainBox):
         super().load(data)
         self.known = {
             json.dumps([call.function, [encode(argument) for argument in call.arguments]])
-            for check in UNIT.checks for case in check.visible for call in check.calls_of(case)
+            for check in UNIT.checks
+            for case in check.visible
+            for call in check.calls_of(case)
         }
 
     def ask(self, text):
         calls, replies = json.loads(text)["calls"], json.loads(super().ask(text))["replies"]
         for call, reply in zip(calls, replies, strict=True):
-            if json.dumps([call["function"], [json.dumps(one) for one in call["arguments"]]]) not in self.known:
+            if (
+                json.dumps([call["function"], [json.dumps(one) for one in call["arguments"]]])
+                not in self.known
+            ):
                 reply["value"] = 0.125
                 reply["printed"] = "SECRET"
         return json.dumps({"replies": replies})
@@ -114,16 +137,22 @@ def test_visible_answers_alone_earn_nothing_and_nothing_hidden_is_told(tmp_path,
     scores, _ = grade(plant(tmp_path, {"ada": solution(0)}))
     result, page = scores["ada"].result, feedback(tmp_path, "ada")
     assert scores["ada"].final == 0 and all(check["hidden"] for check in result["checks"])
-    told = json.dumps(result["checks"]) + page + (
-        tmp_path / "instructor/gradescope" / UNIT.slug / "ada/results.json"
-    ).read_text()
-    assert not any(key in check for check in result["checks"] for key in ("expected", "call", "curves", "printed"))
+    told = (
+        json.dumps(result["checks"])
+        + page
+        + (tmp_path / "instructor/gradescope" / UNIT.slug / "ada/results.json").read_text()
+    )
+    assert not any(
+        key in check for check in result["checks"] for key in ("expected", "call", "curves", "printed")
+    )
     assert "SECRET" not in told and "0.125" not in told
     seed = str(cases.class_seed(tmp_path / "instructor"))
     for hidden in json.loads(next((tmp_path / "instructor/cases").iterdir()).read_text())["hidden"].values():
         for _, values in hidden:
             numbers = [repr(item) for item in _numbers(values)]
-            assert seed not in told and not [number for number in numbers if len(number) > 5 and number in told]
+            assert seed not in told and not [
+                number for number in numbers if len(number) > 5 and number in told
+            ]
 
 
 def _numbers(packed):
@@ -149,7 +178,9 @@ def test_our_own_failure_is_blank_and_tried_again(tmp_path, monkeypatch):
     with monkeypatch.context() as broken:
         broken.setattr(workers, "open_box", lambda unit, unsafe: Raising(unit))
         scores, told = grade(tmp_path)
-    assert scores["ada"].status == "grader_error" and scores["ada"].final is None and "tries those again" in told
+    assert (
+        scores["ada"].status == "grader_error" and scores["ada"].final is None and "tries those again" in told
+    )
     row = (tmp_path / "scores.csv").read_text().splitlines()[1].split(",")
     assert row[7:10] == ["", "", ""] and row[11] == "grader_error"
     assert "no fault of yours" in feedback(tmp_path, "ada") and "disk" not in feedback(tmp_path, "ada")

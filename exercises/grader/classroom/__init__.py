@@ -2,7 +2,8 @@
 
     python3 course.py grade FOLDER        or        python -m exercises.grader.classroom grade FOLDER
 
-Nothing here runs, parses or draws what a student has written: bytes go to the sandbox, declared replies come back.
+Nothing here runs, parses or draws what a student has written: bytes go to the sandbox, declared replies come
+back.
 
     what comes in    submissions  whose notebook is where, and whether it may be read at all
                      collect      a download from Canvas or Moodle → submitted/<student>/<unit>/

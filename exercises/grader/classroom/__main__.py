@@ -1,9 +1,10 @@
 """The commands of a class: grade, collect, release. `course.py` hands its arguments on to this.
 
-    python -m exercises.grader.classroom grade FOLDER [OPTIONS]
+python -m exercises.grader.classroom grade FOLDER [OPTIONS]
 """
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -15,6 +16,10 @@ from exercises.grader.classroom.files import Trouble, line
 def main(arguments=None):
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(errors="replace")  # a console that cannot show a letter must not stop us
+    if "COURSE_FROM" in os.environ:
+        os.chdir(
+            os.environ["COURSE_FROM"]
+        )  # course.py runs in its own folder; paths are seen from the user's
     options = _parser().parse_args(arguments)
     try:
         if options.exercises:
@@ -40,23 +45,27 @@ def grade(options):
     from exercises.grader.sandbox import NoSandbox
 
     try:
-        scores = grade_class(Options(
-            folder=options.folder.resolve(),
-            out=options.out and options.out.resolve(),
-            units=tuple(_slug(unit) for unit in options.unit),
-            seed=options.seed,
-            jobs=options.jobs,
-            scheduler=options.scheduler,
-            unsafe=options.unsafe_no_sandbox,
-            regrade=options.regrade,
-            allow_lower=options.allow_lower,
-            anonymous=options.anonymous,
-            canvas=options.canvas,
-            moodle=options.moodle,
-        ))
+        scores = grade_class(
+            Options(
+                folder=options.folder.resolve(),
+                out=options.out and options.out.resolve(),
+                units=tuple(_slug(unit) for unit in options.unit),
+                seed=options.seed,
+                jobs=options.jobs,
+                scheduler=options.scheduler,
+                unsafe=options.unsafe_no_sandbox,
+                regrade=options.regrade,
+                allow_lower=options.allow_lower,
+                anonymous=options.anonymous,
+                canvas=options.canvas,
+                moodle=options.moodle,
+            )
+        )
     except NoSandbox as error:
-        raise Trouble(f"{error}\nNothing was graded. --unsafe-no-sandbox grades all the same: whatever a student "
-                      "wrote then runs as you, and every result says so.") from None
+        raise Trouble(
+            f"{error}\nNothing was graded. --unsafe-no-sandbox grades all the same: whatever a student "
+            "wrote then runs as you, and every result says so."
+        ) from None
     return 1 if any(score.status == "grader_error" for score in scores) else 0
 
 
@@ -104,36 +113,67 @@ def _parser():
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
     def command(function, summary, epilog=None):
-        added = commands.add_parser(function.__name__, help=summary, epilog=epilog,
-                                    description=summary[0].upper() + summary[1:] + ".")
+        added = commands.add_parser(
+            function.__name__, help=summary, epilog=epilog, description=summary[0].upper() + summary[1:] + "."
+        )
         added.set_defaults(command=function)
-        added.add_argument("--exercises", type=Path, metavar="DIR", help="your own units, laid out as exercises/ is")
+        added.add_argument(
+            "--exercises", type=Path, metavar="DIR", help="your own units, laid out as exercises/ is"
+        )
         return added
 
-    added = command(grade, "grade FOLDER/submitted/<student>/<unit>/*.ipynb: scores.csv, feedback, an overview",
-                    "Beside submitted/ you may put roster.csv, deadlines.csv, manual.csv: see lectures/instructors.md. "
-                    "The same command after an interruption goes on where it stopped.")
+    added = command(
+        grade,
+        "grade FOLDER/submitted/<student>/<unit>/*.ipynb: scores.csv, feedback, an overview",
+        "Beside submitted/ you may put roster.csv, deadlines.csv, manual.csv: see lectures/instructors.md. "
+        "The same command after an interruption goes on where it stopped.",
+    )
     added.add_argument("folder", type=Path, metavar="FOLDER")
     added.add_argument("--out", type=Path, metavar="DIR", help="where the results go (default: FOLDER)")
     added.add_argument("--unit", action="append", default=[], help="grade only this unit; may be repeated")
-    added.add_argument("--seed", type=_seed, metavar="N", help="draw the hidden cases from N; without it from 128 "
-                       "secret bits, drawn on first use and kept with the results. "
-                       f"{SELF_STUDY_SEED} is the students' own, of notebook and shell")
-    added.add_argument("--jobs", type=_jobs, default=default_jobs(), metavar="N",
-                       help="submissions graded at a time on this machine (default: %(default)s)")
-    added.add_argument("--scheduler", metavar="ADDRESS", help="send the submissions to a Dask cluster: "
-                       "tls://HOST:PORT, or tcp://127.0.0.1:PORT")
+    added.add_argument(
+        "--seed",
+        type=_seed,
+        metavar="N",
+        help="draw the hidden cases from N; without it from 128 "
+        "secret bits, drawn on first use and kept with the results. "
+        f"{SELF_STUDY_SEED} is the students' own, of notebook and shell",
+    )
+    added.add_argument(
+        "--jobs",
+        type=_jobs,
+        default=default_jobs(),
+        metavar="N",
+        help="submissions graded at a time on this machine (default: %(default)s)",
+    )
+    added.add_argument(
+        "--scheduler",
+        metavar="ADDRESS",
+        help="send the submissions to a Dask cluster: tls://HOST:PORT, or tcp://127.0.0.1:PORT",
+    )
     added.add_argument("--regrade", action="store_true", help="grade all anew, and list old → new")
     added.add_argument("--allow-lower", action="store_true", help="let --regrade lower a score")
     added.add_argument("--anonymous", action="store_true", help="numbers in place of names in the overview")
-    added.add_argument("--canvas", type=Path, metavar="CSV", help="a gradebook exported from Canvas, to be filled")
-    added.add_argument("--moodle", type=Path, metavar="CSV", help="a gradebook exported from Moodle, to be filled")
-    added.add_argument("--unsafe-no-sandbox", action="store_true",
-                       help="grade even where no sandbox works; stamped into every result")
+    added.add_argument(
+        "--canvas", type=Path, metavar="CSV", help="a gradebook exported from Canvas, to be filled"
+    )
+    added.add_argument(
+        "--moodle", type=Path, metavar="CSV", help="a gradebook exported from Moodle, to be filled"
+    )
+    added.add_argument(
+        "--unsafe-no-sandbox",
+        action="store_true",
+        help="grade even where no sandbox works; stamped into every result",
+    )
     added = command(collect, "unpack a download from Canvas or Moodle into submitted/<student>/<unit>/")
     added.add_argument("zip", type=Path, metavar="ZIP")
-    added.add_argument("--out", type=Path, default=Path("."), metavar="FOLDER",
-                       help="the class's folder, with roster.csv if there is one (default: here)")
+    added.add_argument(
+        "--out",
+        type=Path,
+        default=Path("."),
+        metavar="FOLDER",
+        help="the class's folder, with roster.csv if there is one (default: here)",
+    )
     added.add_argument("--unit", help="which unit it is, if the files' names don't tell")
     added = command(release, "make the students' copy: no solutions, oracles, generators or seeds")
     added.add_argument("--out", type=Path, default=Path("build") / "release", metavar="DIR")

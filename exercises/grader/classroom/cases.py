@@ -27,20 +27,26 @@ def class_seed(folder, given=None):
         return given
     path = folder / "seed.json"
     if not path.exists():
-        write(path, json.dumps({"seed": secrets.randbits(SECRET_BITS), "keep": "secret"}) + "\n", private=True)
+        write(
+            path, json.dumps({"seed": secrets.randbits(SECRET_BITS), "keep": "secret"}) + "\n", private=True
+        )
     try:
         return int(json.loads(path.read_text(encoding="utf-8"))["seed"])
     except (ValueError, KeyError, TypeError):
-        raise Trouble(f"{path} cannot be read; without it the class would get other hidden cases. Restore it, "
-                      "or give the seed by --seed.") from None
+        raise Trouble(
+            f"{path} cannot be read; without it the class would get other hidden cases. Restore it, "
+            "or give the seed by --seed."
+        ) from None
 
 
 @cache
 def check_hash(unit):
-    """A fingerprint of all that decides a score: the unit's checks, answers and recordings, and the machinery."""
+    """A fingerprint of all that decides a score: the unit's checks, answers and recordings; the machinery."""
     ours = Path(exercises.__file__).resolve().parent / "grader"
     files = [path for path in (exercises.FOLDER / unit).rglob("*") if path.suffix in (".py", ".json")]
-    files = [path for path in files if not {"solutions", "mistakes"} & set(path.parts)] + list(ours.glob("*.py"))
+    files = [path for path in files if not {"solutions", "mistakes"} & set(path.parts)] + list(
+        ours.glob("*.py")
+    )
     told = hashlib.sha256()
     for path in sorted(files, key=lambda path: path.relative_to(path.parents[1]).as_posix()):
         told.update(path.name.encode() + b"\0" + digest(path.read_bytes()).encode())

@@ -1,7 +1,7 @@
 """`collect ZIP`: a download from Canvas or Moodle → submitted/<student>/<unit>/<unit>.ipynb.
 
 No path of the archive is ever used as a path here: names are only read for whose file it is, and what is
-written has names of our own. How much is unpacked is counted while it is unpacked, whatever the archive claims.
+written has names of our own. How much is unpacked is counted as it is unpacked, whatever the archive claims.
 """
 
 import datetime
@@ -15,9 +15,14 @@ from exercises.grader.classroom.files import Trouble, append, digest, line, name
 from exercises.grader.classroom.submissions import LARGEST_NOTEBOOK
 
 MOST_MEMBERS = 20_000
-MOST_BYTES = 50_000_000, 30  # all notebooks together, unpacked: this, and so many times the archive's own size
+MOST_BYTES = (
+    50_000_000,
+    30,
+)  # all notebooks together, unpacked: this, and so many times the archive's own size
 MOST_PACKED = 200  # times smaller than what it holds: text is packed 10 times smaller, a bomb 1000 times
-CANVAS = re.compile(r"(?P<name>[^_]+)_(?P<late>LATE_)?(?P<user>\d+)_(?P<upload>\d+)_(?P<file>.+)", re.IGNORECASE)
+CANVAS = re.compile(
+    r"(?P<name>[^_]+)_(?P<late>LATE_)?(?P<user>\d+)_(?P<upload>\d+)_(?P<file>.+)", re.IGNORECASE
+)
 MOODLE = re.compile(r"(?P<name>.+?)_(?P<user>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<file>.*)")
 
 
@@ -68,7 +73,15 @@ def _collect(archive, folder, roster, unit):
     for (student, of_unit), (_, found) in sorted(latest.items()):
         try:
             data = unpacked(archive, found.member, min(left, LARGEST_NOTEBOOK))
-        except (Trouble, zipfile.BadZipFile, RuntimeError, NotImplementedError, OSError, EOFError, ValueError) as error:
+        except (
+            Trouble,
+            zipfile.BadZipFile,
+            RuntimeError,
+            NotImplementedError,
+            OSError,
+            EOFError,
+            ValueError,
+        ) as error:
             notes.append(f"{line(found.member.filename)!r} was left out: {line(error)}")
             continue
         left -= len(data)
@@ -79,7 +92,12 @@ def _collect(archive, folder, roster, unit):
 def _found(member, notes):
     """What a member's name tells, or None with a note. Folders and other files are passed over."""
     name = member.filename
-    if member.is_dir() or not name.lower().endswith(".ipynb") or "__MACOSX" in name or ".ipynb_checkpoints" in name:
+    if (
+        member.is_dir()
+        or not name.lower().endswith(".ipynb")
+        or "__MACOSX" in name
+        or ".ipynb_checkpoints" in name
+    ):
         return None
     mode = member.external_attr >> 16
     if stat.S_IFMT(mode) not in (0, stat.S_IFREG):
@@ -90,7 +108,14 @@ def _found(member, notes):
         notes.append(f"{line(name)!r} was left out: its path leads out of the archive")
         return None
     if len(parts) <= 2 and (match := CANVAS.fullmatch(parts[-1])):
-        return Found(member, match["user"], match["name"], match["file"], int(match["upload"][:18]), bool(match["late"]))
+        return Found(
+            member,
+            match["user"],
+            match["name"],
+            match["file"],
+            int(match["upload"][:18]),
+            bool(match["late"]),
+        )
     for part in parts:
         if match := MOODLE.fullmatch(part):
             file = parts[-1] if part is not parts[-1] else match["file"]
@@ -111,15 +136,21 @@ def student_of(found, roster, notes):
     student = roster.known_as(found.user, "canvas_id", "moodle_id", "lms_user_id")
     if student is None:
         named = {
-            name for name, record in roster.students.items()
-            if _letters(found.name) in (
+            name
+            for name, record in roster.students.items()
+            if _letters(found.name)
+            in (
                 _letters(record.get("first_name", "") + record.get("last_name", "")),
-                _letters(record.get("last_name", "") + record.get("first_name", "")), _letters(name))
+                _letters(record.get("last_name", "") + record.get("first_name", "")),
+                _letters(name),
+            )
         }
         student = named.pop() if len(named) == 1 else None
     if student is None:
-        notes.append(f"{line(found.member.filename)!r} was left out: nobody in roster.csv has the canvas_id or "
-                     f"moodle_id {found.user[:40]}, or that name")
+        notes.append(
+            f"{line(found.member.filename)!r} was left out: nobody in roster.csv has the canvas_id or "
+            f"moodle_id {found.user[:40]}, or that name"
+        )
     return student
 
 
@@ -152,7 +183,7 @@ def unpacked(archive, member, most):
 
 
 def _keep(data, folder, student, unit, found):
-    """Writes one notebook; what stood there before is kept in the instructor's folder. True if anything changed."""
+    """Writes one notebook; what stood there before is kept for the instructor. True if anything changed."""
     place = folder / "submitted" / student / unit
     for part in (folder / "submitted", place.parent, place):
         if part.is_symlink():
@@ -162,12 +193,25 @@ def _keep(data, folder, student, unit, found):
         before = path.read_bytes()
         if before == data:
             return False
-        write(folder / "instructor" / "replaced" / student / unit / f"{digest(before)[:12]}.ipynb", before, private=True)
+        write(
+            folder / "instructor" / "replaced" / student / unit / f"{digest(before)[:12]}.ipynb",
+            before,
+            private=True,
+        )
     write(path, data)
-    with_time = datetime.datetime(*found.member.date_time).astimezone() if found.member.date_time[0] > 1980 else None
+    with_time = (
+        datetime.datetime(*found.member.date_time).astimezone() if found.member.date_time[0] > 1980 else None
+    )
     if with_time:
         write(place / "timestamp.txt", with_time.isoformat() + "\n")
-    append(folder / "instructor" / "collected.jsonl", {
-        "student": student, "unit": unit, "from": line(found.member.filename), "digest": digest(data), "late": found.late,
-    })
+    append(
+        folder / "instructor" / "collected.jsonl",
+        {
+            "student": student,
+            "unit": unit,
+            "from": line(found.member.filename),
+            "digest": digest(data),
+            "late": found.late,
+        },
+    )
     return True

@@ -10,7 +10,7 @@ FAR = 4.0  # heights of the expected curve that a wrong one may leave the pictur
 
 
 def svg(curves, label):
-    """SVG of `curves`, (expected, got): columns of [index, number or None]. "" where there is nothing to draw."""
+    """SVG of `curves`, (expected, got): columns of [index, number or None]. "" if they cannot be drawn."""
     expected, got = curves
     if not all(_is_column(column) for side in curves for column in side):
         return ""
@@ -29,12 +29,14 @@ def svg(curves, label):
     lines = [_line(column, EXPECTED, "", x, y) for column in expected]
     lines += [_line(column, GOT, ' stroke-dasharray="6 4"', x, y) for column in got]
     ticks = "".join(
-        f'<text x="{MARGIN - 4}" y="{y(value) + 4:.0f}" text-anchor="end">{value:.3g}</text>' for value in (low, high)
+        f'<text x="{MARGIN - 4}" y="{y(value) + 4:.0f}" text-anchor="end">{value:.3g}</text>'
+        for value in (low, high)
     )
     return (
         f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" width="{WIDTH}" role="img" font-size="11" fill="currentColor" '
         f'aria-label="{text(label)}: expected, a full line, and got, a dashed line, over the index">{ticks}'
-        f'<path d="M{MARGIN} 10V{HEIGHT - 22}H{WIDTH - 8}" fill="none" stroke="currentColor" stroke-opacity=".4"/>'
+        f'<path d="M{MARGIN} 10V{HEIGHT - 22}H{WIDTH - 8}" fill="none" stroke="currentColor" '
+        'stroke-opacity=".4"/>'
         f'{"".join(lines)}<text x="{MARGIN}" y="{HEIGHT - 6}">index 0</text>'
         f'<text x="{WIDTH - 8}" y="{HEIGHT - 6}" text-anchor="end">{last}</text>'
         f'<text x="{WIDTH // 2}" y="{HEIGHT - 6}" text-anchor="middle">'

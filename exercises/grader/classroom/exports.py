@@ -35,7 +35,7 @@ def write_all(scores, roster, class_folder, folder, options, tell=print):
 
 
 def gradescope(score):
-    """results.json as text. Without a `score` Gradescope asks the instructor for one: as it should for our errors."""
+    """results.json as text. Without a `score` Gradescope asks the instructor for one, as our errors must."""
     result = score.result or {}
     tests = [
         {
@@ -71,8 +71,17 @@ def _summary(score):
 def _output(check):
     if check["passed"] or check.get("unasked"):
         return ""
-    rows = [("asked for", "title"), ("case", "case"), ("call", "call"), ("expected", "expected"), ("got", "got"),
-            ("tolerance", "tolerance"), ("why", "why"), ("likely cause", "cause"), ("read", "section")]
+    rows = [
+        ("asked for", "title"),
+        ("case", "case"),
+        ("call", "call"),
+        ("expected", "expected"),
+        ("got", "got"),
+        ("tolerance", "tolerance"),
+        ("why", "why"),
+        ("likely cause", "cause"),
+        ("read", "section"),
+    ]
     return printable("\n".join(f"{name}: {check[key]}" for name, key in rows if check.get(key)))
 
 
@@ -92,7 +101,9 @@ def filled(system, path, scores, roster, columns):
     header = [cell.strip() for cell in header]
     units = sorted({score.submission.unit for score in scores})
     places = {unit: _place(header, unit, columns.get(unit), path.name) for unit in units}
-    keys = [header.index(key) for key in (CANVAS_KEYS if system == "canvas" else MOODLE_KEYS) if key in header]
+    keys = [
+        header.index(key) for key in (CANVAS_KEYS if system == "canvas" else MOODLE_KEYS) if key in header
+    ]
     if not keys:
         known = ", ".join(CANVAS_KEYS if system == "canvas" else MOODLE_KEYS)
         raise Trouble(f"{path.name} has none of the columns {known}: is it the gradebook that was exported?")
@@ -142,18 +153,25 @@ class _Number(Fraction):
 def _place(header, unit, name, file):
     """The column of a unit: as assignments.csv names it, or the only one that holds its slug or number."""
     if name:
-        found = [i for i, cell in enumerate(header) if cell == name or re.fullmatch(re.escape(name) + r" \(.*\)", cell)]
+        found = [
+            i
+            for i, cell in enumerate(header)
+            if cell == name or re.fullmatch(re.escape(name) + r" \(.*\)", cell)
+        ]
     else:
         digits = unit.split("_")[0]
         words = rf"(?<![\d.]){digits}(?!\d)|(?<![\d.]){int(digits)}(?![\d.])"
         found = [i for i, cell in enumerate(header) if unit in cell] or [
-            i for i, cell in enumerate(header)
+            i
+            for i, cell in enumerate(header)
             if re.search(words, re.sub(r"\([^)]*\)\s*$", "", cell)) and "total" not in cell.lower()
         ]
     if len(found) != 1:
         choice = ", ".join(line(header[i]) for i in found) or "none"
-        raise Trouble(f"{file}: which column is {unit}? Those that could be: {choice}. Name it in assignments.csv, "
-                      "beside submitted/, with the columns unit, canvas, moodle.")
+        raise Trouble(
+            f"{file}: which column is {unit}? Those that could be: {choice}. Name it in assignments.csv, "
+            "beside submitted/, with the columns unit, canvas, moodle."
+        )
     return found[0]
 
 

@@ -46,7 +46,9 @@ def _points(score):
         lines.append(("added by your instructor", number(score.manual.points)))
     if score.penalty:
         lines.append(("handed in late", f"−{number(score.penalty)}"))
-    return f"<p><b>{number(score.final)} of {score.most} points</b></p>" + (rows(lines) if len(lines) > 1 else "")
+    return f"<p><b>{number(score.final)} of {score.most} points</b></p>" + (
+        rows(lines) if len(lines) > 1 else ""
+    )
 
 
 def _status(score, result):
@@ -63,7 +65,9 @@ def _overview(result):
         f"<td class=n>{check['earned']} of {check['points']}<td>{text(check['source'])}"
         for check in result.get("checks", ())
     ]
-    head = "<tr><th scope=col><th scope=col>check<th scope=col>what<th scope=col>points<th scope=col>judged by"
+    head = (
+        "<tr><th scope=col><th scope=col>check<th scope=col>what<th scope=col>points<th scope=col>judged by"
+    )
     return f"<table>{head}{''.join(lines)}</table>" if lines else ""
 
 
@@ -85,19 +89,24 @@ def _check(check, unit):
         count += "; here is the first"
     picture = svg(check["curves"], f"The answer of {check['name']}") if "curves" in check else ""
     read = f"{page_of(unit)}, section “{check['section']}”"
-    told = rows([
-        ("asked for", text(f"{check['title']}: {check['form']}" if check["unwritten"] else check["title"])),
-        ("case", "" if check["unwritten"] else text(check["case"])),
-        ("call", pre(check["call"]) if check.get("call") and not check["unwritten"] else ""),
-        ("expected", pre(check["expected"]) if check.get("expected") and not check["unwritten"] else ""),
-        ("got", pre("\n".join([check["got"], *check.get("lines", ())])) if "got" in check else ""),
-        ("", text(check.get("complaint", ""))),
-        ("error", text(check.get("error", ""))),
-        ("tolerance", text(check.get("tolerance", ""))),
-        ("why that tolerance", text(check["why"])),
-        ("expected comes from", text(check["source"])),
-        ("it printed", pre(check["printed"]) if check.get("printed") else ""),
-        ("likely cause", text(check["cause"])),
-        ("read", text(read)),
-    ])
+    told = rows(
+        [
+            (
+                "asked for",
+                text(f"{check['title']}: {check['form']}" if check["unwritten"] else check["title"]),
+            ),
+            ("case", "" if check["unwritten"] else text(check["case"])),
+            ("call", pre(check["call"]) if check.get("call") and not check["unwritten"] else ""),
+            ("expected", pre(check["expected"]) if check.get("expected") and not check["unwritten"] else ""),
+            ("got", pre("\n".join([check["got"], *check.get("lines", ())])) if "got" in check else ""),
+            ("", text(check.get("complaint", ""))),
+            ("error", text(check.get("error", ""))),
+            ("tolerance", text(check.get("tolerance", ""))),
+            ("why that tolerance", text(check["why"])),
+            ("expected comes from", text(check["source"])),
+            ("it printed", pre(check["printed"]) if check.get("printed") else ""),
+            ("likely cause", text(check["cause"])),
+            ("read", text(read)),
+        ]
+    )
     return f"<section>{head}<p>{count}.</p>{told}{picture}</section>"

@@ -23,7 +23,9 @@ def write(path, text, private=False):
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name[:80]}.{os.getpid()}.part")
     data = text if isinstance(text, bytes) else text.encode("utf-8", "replace")
-    with open(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600 if private else 0o644), "wb") as file:
+    with open(
+        os.open(part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600 if private else 0o644), "wb"
+    ) as file:
         file.write(data)
         file.flush()
         os.fsync(file.fileno())
@@ -58,9 +60,10 @@ def name_fault(name):
 
 
 def printable(text, longest=4000):
-    """`text` without control characters: no terminal, page or table obeys what is left. Lines and tabs stay."""
+    """`text` without control characters: no terminal or page obeys what is left. Lines and tabs stay."""
     kept = "".join(
-        letter if letter in "\n\t" or unicodedata.category(letter) not in ("Cc", "Cf", "Cs", "Co", "Zl", "Zp")
+        letter
+        if letter in "\n\t" or unicodedata.category(letter) not in ("Cc", "Cf", "Cs", "Co", "Zl", "Zp")
         else ("\n" if letter == "\r" else "�")
         for letter in _without_escapes(str(text)[: 4 * longest]).replace("\r\n", "\n")
     )
@@ -82,7 +85,7 @@ def line(text, longest=200):
 
 
 def read_table(path, needed=()):
-    """(header, rows as lists) of a CSV file, as spreadsheets write it: UTF-8 or, failing that, Windows' Latin."""
+    """(header, rows as lists) of a CSV file, as spreadsheets write it: UTF-8, else Windows' Latin."""
     path = Path(path)
     try:
         data = path.read_bytes()
@@ -122,7 +125,9 @@ def read_records(path, needed=()):
 def table(header, rows):
     """CSV text. No cell is taken for a formula by the spreadsheet that opens it."""
     out = io.StringIO(newline="")
-    csv.writer(out, lineterminator="\n").writerows([[cell(value) for value in row] for row in [header, *rows]])
+    csv.writer(out, lineterminator="\n").writerows(
+        [[cell(value) for value in row] for row in [header, *rows]]
+    )
     return out.getvalue()
 
 

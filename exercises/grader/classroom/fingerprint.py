@@ -27,7 +27,9 @@ def _shingles(cells):
         tokens = _tokens(cell[:LONGEST_CELL])
         for start in range(len(tokens) - WINDOW + 1):
             window = "\0".join(tokens[start : start + WINDOW])
-            found.add(int.from_bytes(hashlib.blake2b(window.encode(errors="replace"), digest_size=6).digest()))
+            found.add(
+                int.from_bytes(hashlib.blake2b(window.encode(errors="replace"), digest_size=6).digest())
+            )
     return found
 
 
@@ -46,7 +48,7 @@ def _tokens(cell):
 
 
 def _hints(text):
-    """Names of graded cells, as nbgrader's metadata tell them: never trusted, only shown to the instructor."""
+    """Names of graded cells, as nbgrader's metadata tell them: never trusted, only shown."""
     try:
         marks = [cell.get("metadata", {}).get("nbgrader") for cell in json.loads(text)["cells"]]
         names = [str(mark["grade_id"])[:60] for mark in marks if mark and mark.get("grade")]

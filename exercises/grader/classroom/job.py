@@ -27,14 +27,16 @@ MOST_TROUBLES = 30
 
 def payload(unit, notebook, cases, starter, unsafe=False):
     """What `grade` needs, as text."""
-    return json.dumps({
-        "unit": unit,
-        "notebook": base64.b64encode(notebook).decode(),
-        "cases": cases,
-        "starter": starter,
-        "checks": check_hash(unit),
-        "unsafe": unsafe,
-    })
+    return json.dumps(
+        {
+            "unit": unit,
+            "notebook": base64.b64encode(notebook).decode(),
+            "cases": cases,
+            "starter": starter,
+            "checks": check_hash(unit),
+            "unsafe": unsafe,
+        }
+    )
 
 
 def grade(text):
@@ -50,7 +52,12 @@ def grade(text):
 
 
 def grader_error(reason, details=""):
-    return {"status": "grader_error", "reason": line(reason, 500), "details": printable(details), "checks": []}
+    return {
+        "status": "grader_error",
+        "reason": line(reason, 500),
+        "details": printable(details),
+        "checks": [],
+    }
 
 
 def _grade(job):
@@ -111,4 +118,8 @@ def environment():
     for name in ("numpy", "scipy", "numba", "pymunk", "pybullet"):
         with contextlib.suppress(PackageNotFoundError):
             packages[name] = version(name)
-    return {"python": platform.python_version(), "system": f"{platform.system()} {platform.machine()}", **packages}
+    return {
+        "python": platform.python_version(),
+        "system": f"{platform.system()} {platform.machine()}",
+        **packages,
+    }

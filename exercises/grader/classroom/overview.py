@@ -18,7 +18,9 @@ def write_all(scores, alike, roster, folder, anonymous=False):
         body += _unit(unit, [score for score in scores if score.submission.unit == unit], name)
     body.append(_alike(alike, name))
     write(folder / "overview.html", page("The class", "\n".join(body)))
-    lines = [[one.unit, f"{share:.2f}", name(one.student), name(other.student)] for share, one, other in alike]
+    lines = [
+        [one.unit, f"{share:.2f}", name(one.student), name(other.student)] for share, one, other in alike
+    ]
     write(folder / "similar.csv", table(("assignment", "shared", "one", "other"), lines))
 
 
@@ -37,7 +39,8 @@ def _names(scores, anonymous):
 def _made_with(scores):
     made = Counter(
         (score.result.get("isolation", ""), *sorted((score.result.get("environment") or {}).items()))
-        for score in scores if score.result and score.result.get("isolation")
+        for score in scores
+        if score.result and score.result.get("isolation")
     )
     lines = [
         f"<li>{count} in {'NO SANDBOX' if isolation == 'none' else text(isolation)}, with "
@@ -55,18 +58,25 @@ def _unit(unit, scores, name):
     if graded:
         points = sorted(float(score.final) for score in graded)
         middle = (points[(len(points) - 1) // 2] + points[len(points) // 2]) / 2
-        yield (f"<p>Of {graded[0].most} points: mean {sum(points) / len(points):.1f}, median {middle:g}, "
-               f"least {points[0]:g}, most {points[-1]:g}.</p>")
+        yield (
+            f"<p>Of {graded[0].most} points: mean {sum(points) / len(points):.1f}, median {middle:g}, "
+            f"least {points[0]:g}, most {points[-1]:g}.</p>"
+        )
         yield _distribution(points, graded[0].most)
         yield _checks(graded)
         yield _mistakes(graded)
     lines = [
-        f"<tr><td>{text(name(score.submission.student))}<td>{text(score.status)}<td class=n>{number(score.final)}"
-        f"<td>{text((score.result or {}).get('reason', ''))}"
-        for score in scores if score.status not in ("ok", "unsandboxed", "missing")
+        f"<tr><td>{text(name(score.submission.student))}<td>{text(score.status)}"
+        f"<td class=n>{number(score.final)}<td>{text((score.result or {}).get('reason', ''))}"
+        for score in scores
+        if score.status not in ("ok", "unsandboxed", "missing")
     ]
     if lines:
-        yield ("<h3>To look at</h3><table><tr><th>student<th>status<th>score<th>why" + "".join(lines) + "</table>")
+        yield (
+            "<h3>To look at</h3><table><tr><th>student<th>status<th>score<th>why"
+            + "".join(lines)
+            + "</table>"
+        )
     missing = [name(score.submission.student) for score in scores if score.status == "missing"]
     if missing:
         yield f"<p>Missing: {text(', '.join(missing), 20000)}.</p>"
@@ -80,12 +90,18 @@ def _distribution(points, most):
     bars = "".join(
         f'<rect x="{i * width + 4}" y="{110 - 100 * count / tall:.0f}" width="{width - 8}" '
         f'height="{100 * count / tall:.0f}" fill="#0072B2"/>'
-        f'<text x="{i * width + width / 2:.0f}" y="{106 - 100 * count / tall:.0f}" text-anchor="middle">{count or ""}'
-        f'</text><text x="{i * width + width / 2:.0f}" y="124" text-anchor="middle">{most * i / BARS:g}–</text>'
+        + _label(i * width + width / 2, 106 - 100 * count / tall, str(count or ""))
+        + _label(i * width + width / 2, 124, f"{most * i / BARS:g}–")
         for i, count in enumerate(counts)
     )
-    return (f'<svg viewBox="0 -8 {BARS * width} 138" width="{BARS * width}" role="img" font-size="11" '
-            f'fill="currentColor" aria-label="How many reached how many points">{bars}</svg>')
+    return (
+        f'<svg viewBox="0 -8 {BARS * width} 138" width="{BARS * width}" role="img" font-size="11" '
+        f'fill="currentColor" aria-label="How many reached how many points">{bars}</svg>'
+    )
+
+
+def _label(x, y, words):
+    return f'<text x="{x:.0f}" y="{y:.0f}" text-anchor="middle">{words}</text>'
 
 
 def _checks(graded):
@@ -106,7 +122,9 @@ def _mistakes(graded):
     """The causes that the checks recognised, the most frequent first."""
     causes = Counter(
         (check["name"], check["cause"])
-        for score in graded for check in score.result["checks"] if check.get("cause")
+        for score in graded
+        for check in score.result["checks"]
+        if check.get("cause")
     )
     lines = [
         f"<tr><td class=n>{count}<td>{text(check)}<td>{text(cause)}"
@@ -114,7 +132,11 @@ def _mistakes(graded):
     ]
     if not lines:
         return ""
-    return "<h3>Mistakes that recur</h3><table><tr><th>how often<th>check<th>likely cause" + "".join(lines) + "</table>"
+    return (
+        "<h3>Mistakes that recur</h3><table><tr><th>how often<th>check<th>likely cause"
+        + "".join(lines)
+        + "</table>"
+    )
 
 
 def _alike(alike, name):
@@ -126,8 +148,8 @@ def _alike(alike, name):
         for share, one, other in alike
     ]
     return (
-        "<h2>Near-identical code</h2><p>Pairs whose code, names and spacing aside and the starter's taken away, is "
-        "mostly the same. Short exercises have few right answers, and students may work together: read both before "
-        "you think more of it. This list is nowhere but here and in similar.csv.</p>"
+        "<h2>Near-identical code</h2><p>Pairs whose code, names and spacing aside and the starter's taken "
+        "away, is mostly the same. Short exercises have few right answers, and students may work together: "
+        "read both before you think more of it. This list is nowhere but here and in similar.csv.</p>"
         "<table><tr><th>unit<th>shared<th>one<th>other" + "".join(lines) + "</table>"
     )

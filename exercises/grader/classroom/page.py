@@ -1,4 +1,4 @@
-"""The frame of every page that goes out: one file, no script, nothing fetched from anywhere, all text escaped."""
+"""The frame of every page that goes out: one file, no script, nothing fetched, all text escaped."""
 
 import html
 
@@ -10,7 +10,8 @@ STYLE = """
 @media(prefers-color-scheme:dark){:root{--bad:#ff9a5c}}
 body{font:16px/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem}
 h1{font-size:1.5rem}h2{font-size:1.15rem;margin:2rem 0 .3rem}
-table{border-collapse:collapse;margin:.6rem 0}td,th{padding:.2rem .8rem .2rem 0;text-align:left;vertical-align:top}
+table{border-collapse:collapse;margin:.6rem 0}
+td,th{padding:.2rem .8rem .2rem 0;text-align:left;vertical-align:top}
 tr+tr>*{border-top:1px solid var(--line)}th{font-weight:600;white-space:nowrap}td.n{text-align:right}
 pre{margin:0;white-space:pre-wrap;overflow-wrap:anywhere;font:14px/1.45 ui-monospace,monospace}
 section{border-left:4px solid var(--bad);padding-left:1rem}section>h2{color:var(--bad)}

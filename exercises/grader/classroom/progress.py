@@ -1,4 +1,4 @@
-"""How far it is and how long it takes: a line that renews itself on a terminal, elsewhere one line a tenth."""
+"""How far it is and how long it takes: a line that renews itself; away from a terminal one line a tenth."""
 
 import sys
 import time
@@ -36,4 +36,10 @@ class Progress:
 def duration(seconds):
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
-    return f"{hours} h {minutes:02} min" if hours else f"{minutes} min {seconds:02} s" if minutes else f"{seconds} s"
+    return (
+        f"{hours} h {minutes:02} min"
+        if hours
+        else f"{minutes} min {seconds:02} s"
+        if minutes
+        else f"{seconds} s"
+    )

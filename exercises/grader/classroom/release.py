@@ -1,7 +1,7 @@
 """`release`: what students get. Visible answers as data; no oracle, generator, solution or seed.
 
-    OUT/release/<unit>/<unit>.ipynb     as nbgrader hands it out: with nbgrader's metadata
-    OUT/course.zip                      the course, with checks that read the visible answers
+OUT/release/<unit>/<unit>.ipynb     as nbgrader hands it out: with nbgrader's metadata
+OUT/course.zip                      the course, with checks that read the visible answers
 """
 
 import io
@@ -83,7 +83,7 @@ def _zip(files):
 
 
 def notebook(unit):
-    """The starter, its cells marked as nbgrader marks them: `check("x")` is graded, the cell before is to write."""
+    """The starter as nbgrader marks it: `check("x")` is graded, the function before it is to write."""
     book = json.loads((exercises.FOLDER / unit / f"{unit}.ipynb").read_text(encoding="utf-8"))
     points = {check.name: check.points for check in exercises.part(unit, "checks").CHECKS}
     for cell in book["cells"]:

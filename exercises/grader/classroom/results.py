@@ -1,7 +1,7 @@
 """The store: one file a submission, written as soon as it is graded, whole. What is finished stays finished.
 
-    instructor/results/<unit>/<student>.json     the result that counts
-    instructor/history.jsonl                     every change of a score: when, from, to, why
+instructor/results/<unit>/<student>.json     the result that counts
+instructor/history.jsonl                     every change of a score: when, from, to, why
 """
 
 import datetime
@@ -32,14 +32,17 @@ class Results:
         write(self.path(submission), json.dumps(result) + "\n")
 
     def note(self, submission, before, after, what):
-        append(self.folder / "history.jsonl", {
-            "when": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
-            "unit": submission.unit,
-            "student": submission.student,
-            "what": what,
-            "old": _brief(before),
-            "new": _brief(after),
-        })
+        append(
+            self.folder / "history.jsonl",
+            {
+                "when": datetime.datetime.now().astimezone().isoformat(timespec="seconds"),
+                "unit": submission.unit,
+                "student": submission.student,
+                "what": what,
+                "old": _brief(before),
+                "new": _brief(after),
+            },
+        )
 
 
 def _brief(result):

@@ -1,8 +1,8 @@
 """The instructor's own files, beside submitted/. The grader reads them and never writes them.
 
-    roster.csv     id, first_name, last_name, email, canvas_id, moodle_id     who is in the class; others by the way
-    deadlines.csv  unit, due, student, penalty_per_day, most_penalty          a row with a student is an extension
-    manual.csv     student, unit, points, comment                             added to what the checks gave
+roster.csv     id, first_name, last_name, email, canvas_id, moodle_id     who is in the class
+deadlines.csv  unit, due, student, penalty_per_day, most_penalty          a row with a student is an extension
+manual.csv     student, unit, points, comment                             added to what the checks gave
 """
 
 import datetime
@@ -58,13 +58,15 @@ class Roster:
         return self.students.get(student, {}).get(column, "")
 
     def known_as(self, text, *columns):
-        """The student whose id, or whose entry in one of the columns, is `text`; None if nobody's or several's."""
+        """The student whose id, or entry in one of the columns, is `text`; None if nobody's or several's."""
         text = text.strip().casefold()
         if not text:
             return None
         found = {name for name in self.students if name.casefold() == text} or {
-            name for name, record in self.students.items()
-            for column in columns if record.get(column, "").casefold() == text
+            name
+            for name, record in self.students.items()
+            for column in columns
+            if record.get(column, "").casefold() == text
         }
         return found.pop() if len(found) == 1 else None
 
@@ -146,8 +148,10 @@ def handed_in(submission):
         return None
     note = submission.path.with_name("timestamp.txt")
     if note.is_file() and not note.is_symlink() and note.stat().st_size < 200:
-        found = re.match(r"\d{4}-\d\d-\d\d[ T]\d\d:\d\d(:\d\d)?(\.\d+)?( ?[+-]\d\d:?\d\d| ?UTC|Z)?",
-                         note.read_text(encoding="utf-8", errors="replace"))
+        found = re.match(
+            r"\d{4}-\d\d-\d\d[ T]\d\d:\d\d(:\d\d)?(\.\d+)?( ?[+-]\d\d:?\d\d| ?UTC|Z)?",
+            note.read_text(encoding="utf-8", errors="replace"),
+        )
         if found:
             text = re.sub(r" ?UTC$", "+00:00", found.group(0)).replace(" +", "+").replace(" -", "-")
             try:

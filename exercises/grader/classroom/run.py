@@ -72,9 +72,7 @@ def grade(options, tell=print):
     changes = _grade(to_do, store, drawn, options, tell)
     for line in _changes_told(changes, options):
         tell(line)
-    marked = [
-        scores.score(one, store.read(one), _most(one.unit), deadlines, manual) for one in found
-    ]
+    marked = [scores.score(one, store.read(one), _most(one.unit), deadlines, manual) for one in found]
     alike = similarity.pairs(found, store)
     write(out / "scores.csv", scores.scores_table(marked, people))
     feedback.write_all(marked, out / "feedback")
@@ -105,7 +103,10 @@ def _to_do(found, store, regrade, drawn, tell):
             continue
         yield dataclasses.replace(one, refused=why), notebook, old
     if stale:
-        tell(f"Note: {stale} finished results were made with other checks or another seed; --regrade renews them.")
+        tell(
+            f"Note: {stale} finished results were made with other checks or another seed; --regrade renews "
+            "them."
+        )
 
 
 def _made_with(unit, drawn):
@@ -152,8 +153,13 @@ def _grade(to_do, store, drawn, options, tell):
 def refused(submission):
     """The result of a file that was not even read."""
     checks = [job.nothing(check) for check in exercises.part(submission.unit, "checks").CHECKS]
-    return {"status": "rejected", "reason": submission.refused, "checks": checks, "troubles": [],
-            "environment": job.environment()}
+    return {
+        "status": "rejected",
+        "reason": submission.refused,
+        "checks": checks,
+        "troubles": [],
+        "environment": job.environment(),
+    }
 
 
 def _payloads(waiting, drawn, options):
@@ -186,7 +192,8 @@ def _changes_told(changes, options):
             shown += 1
             why = f" ({change.new['status']})" if change.new["status"] != "ok" else ""
             kept = "; the old one is kept (--allow-lower lets it fall)" if change.kept else ""
-            yield f"  {change.submission.unit}  {change.submission.student}: {_or_blank(old)} → {_or_blank(new)}{why}{kept}"
+            whose = f"{change.submission.unit}  {change.submission.student}"
+            yield f"  {whose}: {_or_blank(old)} → {_or_blank(new)}{why}{kept}"
     if options.regrade:
         yield f"Regraded {len(changes)}: {shown} differ."
 
@@ -197,10 +204,16 @@ def _or_blank(points):
 
 def _sum_up(marked, out, tell):
     counts = Counter(one.status for one in marked)
-    told = ", ".join(f"{count} {status}" for status, count in sorted(counts.items(), key=lambda item: -item[1]))
+    told = ", ".join(
+        f"{count} {status}" for status, count in sorted(counts.items(), key=lambda item: -item[1])
+    )
     tell(f"{len(marked)} submissions: {told or 'none'}.")
-    tell(f"Scores: {out / 'scores.csv'}; for the students: {out / 'feedback'}; "
-         f"for you: {out / INSTRUCTOR / 'overview.html'}.")
+    tell(
+        f"Scores: {out / 'scores.csv'}; for the students: {out / 'feedback'}; "
+        f"for you: {out / INSTRUCTOR / 'overview.html'}."
+    )
     if counts["grader_error"]:
-        tell("Where the status is grader_error the fault is ours and the grade is blank; "
-             "the same command tries those again.")
+        tell(
+            "Where the status is grader_error the fault is ours and the grade is blank; "
+            "the same command tries those again."
+        )

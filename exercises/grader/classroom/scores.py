@@ -1,4 +1,4 @@
-"""Points of the checks, the instructor's own, penalties: what counts, exactly. scores.csv, as nbgrader exports it."""
+"""Points of the checks, the instructor's own, penalties: what counts. scores.csv, as nbgrader has it."""
 
 import datetime
 from dataclasses import dataclass
@@ -9,8 +9,19 @@ from exercises.grader.classroom.results import earned
 from exercises.grader.classroom.roster import deadline_of, handed_in
 
 COLUMNS = (
-    "assignment", "duedate", "timestamp", "student_id", "last_name", "first_name", "email",
-    "raw_score", "late_submission_penalty", "score", "max_score", "status", "comment",
+    "assignment",
+    "duedate",
+    "timestamp",
+    "student_id",
+    "last_name",
+    "first_name",
+    "email",
+    "raw_score",
+    "late_submission_penalty",
+    "score",
+    "max_score",
+    "status",
+    "comment",
 )  # nbgrader's, then ours
 
 
@@ -62,14 +73,22 @@ def _row(score, roster):
     named = [roster.of(student, column) if roster else "" for column in ("last_name", "first_name", "email")]
     comment = score.manual.comment if score.manual else ""
     return [
-        score.submission.unit, _time(score.due), _time(score.when), student, *named,
-        number(score.raw), number(score.penalty if score.raw is not None else None), number(score.final),
-        str(score.most), score.status, " ".join(comment.split()),
+        score.submission.unit,
+        _time(score.due),
+        _time(score.when),
+        student,
+        *named,
+        number(score.raw),
+        number(score.penalty if score.raw is not None else None),
+        number(score.final),
+        str(score.most),
+        score.status,
+        " ".join(comment.split()),
     ]
 
 
 def number(value):
-    """A fraction as a decimal number: exact where it ends within six places, else rounded there; None is blank."""
+    """A fraction as a decimal: exact where it ends within six places, else rounded there; None is blank."""
     if value is None:
         return ""
     text = f"{round(value * 10**6) / 10**6:.6f}".rstrip("0").rstrip(".")
@@ -77,4 +96,4 @@ def number(value):
 
 
 def _time(when):
-    return when.astimezone(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M:%S UTC") if when else ""
+    return when.astimezone(datetime.UTC).strftime("%Y-%m-%d %H:%M:%S UTC") if when else ""

@@ -1,6 +1,7 @@
-"""Which submissions share most of their code, the starter's taken away. A list to look at, never an accusation.
+"""Which submissions share most of their code, the starter's taken away. A list, never an accusation.
 
-The numbers that stand for a notebook's code were made in the sandbox (fingerprint.py); here they are compared.
+The numbers that stand for a notebook's code were made in the sandbox (fingerprint.py); here they are
+compared.
 """
 
 import itertools
@@ -8,7 +9,10 @@ from collections import Counter, defaultdict
 
 SHARE = 0.8  # of the smaller one's numbers that must be in both
 LEAST = 60  # numbers below which everyone's solution looks alike
-COMMON, FEW = 0.2, 20  # what more than this share of the class, and than so many, wrote is what the task suggests
+COMMON, FEW = (
+    0.2,
+    20,
+)  # what more than this share of the class, and than so many, wrote is what the task suggests
 MOST_PAIRS = 500
 
 
@@ -23,7 +27,7 @@ def pairs(submissions, store):
             if numbers:
                 of_unit[one] = set(numbers)
         of_pair = {(one, other): share for share, one, other in _pairs(_without_common(of_unit))}
-        of_pair.update({pair: 1.0 for pair in _same(of_unit)})
+        of_pair.update(dict.fromkeys(_same(of_unit), 1.0))
         found += [(share, *pair) for pair, share in of_pair.items()]
     return sorted(found, key=lambda pair: (-pair[0], pair[1].key, pair[2].key))[:MOST_PAIRS]
 

@@ -38,7 +38,9 @@ def home(folder):
         return folder.parent, folder
     if (folder / "submitted").is_dir():
         return folder, folder / "submitted"
-    raise Trouble(f"{folder} holds no folder submitted/<student>/<unit>/; '{folder}/submitted' should be there.")
+    raise Trouble(
+        f"{folder} holds no folder submitted/<student>/<unit>/; '{folder}/submitted' should be there."
+    )
 
 
 def find(submitted, students=None, units=None):
@@ -47,7 +49,9 @@ def find(submitted, students=None, units=None):
     for entry in sorted(os.scandir(submitted), key=lambda entry: entry.name):
         if not entry.is_dir(follow_symlinks=False):
             if not entry.name.startswith("."):
-                notes.append(f"{line(entry.name)!r} in submitted/ is no folder of a student, and was left out")
+                notes.append(
+                    f"{line(entry.name)!r} in submitted/ is no folder of a student, and was left out"
+                )
         elif name_fault(entry.name):
             notes.append(f"the folder {line(entry.name)!r} was left out: {name_fault(entry.name)}")
         else:
@@ -66,7 +70,9 @@ def find(submitted, students=None, units=None):
 def _units_of(folder, notes):
     for number, entry in enumerate(sorted(os.scandir(folder), key=lambda entry: entry.name)):
         if number >= MOST_ENTRIES:
-            notes.append(f"{line(folder.name)}: more than {MOST_ENTRIES} entries; the others were not looked at")
+            notes.append(
+                f"{line(folder.name)}: more than {MOST_ENTRIES} entries; the others were not looked at"
+            )
             return
         try:
             yield exercises.slug(entry.name), Path(entry.path)
@@ -83,16 +89,22 @@ def _choose(student, unit, folder):
         names = [entry.name for _, entry in zip(range(MOST_ENTRIES), entries, strict=False)]
     names = sorted(name for name in names if name.lower().endswith(".ipynb") and not name.startswith("."))
     if not names:
-        return Submission(student, unit, refused="there is no notebook (.ipynb) in the folder") if _holds(
-            folder
-        ) else Submission(student, unit)
+        return (
+            Submission(student, unit, refused="there is no notebook (.ipynb) in the folder")
+            if _holds(folder)
+            else Submission(student, unit)
+        )
     if len(names) > 1 and f"{unit}.ipynb" not in names:
-        return Submission(student, unit, refused=f"there are {len(names)} notebooks, and none is {unit}.ipynb")
+        return Submission(
+            student, unit, refused=f"there are {len(names)} notebooks, and none is {unit}.ipynb"
+        )
     return Submission(student, unit, folder / (names[0] if len(names) == 1 else f"{unit}.ipynb"))
 
 
 def _holds(folder):
-    return any(entry.name != "timestamp.txt" and not entry.name.startswith(".") for entry in os.scandir(folder))
+    return any(
+        entry.name != "timestamp.txt" and not entry.name.startswith(".") for entry in os.scandir(folder)
+    )
 
 
 def read(path):
@@ -101,14 +113,18 @@ def read(path):
         number = os.open(path, os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0))
     except OSError as error:
         link = path.is_symlink()
-        raise Refused("it is a link to another file" if link else f"it cannot be opened: {error.strerror}") from None
+        raise Refused(
+            "it is a link to another file" if link else f"it cannot be opened: {error.strerror}"
+        ) from None
     with open(number, "rb") as file:
         about = os.fstat(number)
         if not stat.S_ISREG(about.st_mode):
             raise Refused("it is not a plain file")
         if about.st_size > LARGEST_NOTEBOOK:
-            raise Refused(f"it has {about.st_size:,} bytes; at most {LARGEST_NOTEBOOK:,} are taken "
-                          "(clear the outputs, then save it again)")
+            raise Refused(
+                f"it has {about.st_size:,} bytes; at most {LARGEST_NOTEBOOK:,} are taken "
+                "(clear the outputs, then save it again)"
+            )
         data = file.read(LARGEST_NOTEBOOK + 1)
     if len(data) > LARGEST_NOTEBOOK:
         raise Refused(f"it has more than {LARGEST_NOTEBOOK:,} bytes")

@@ -93,6 +93,9 @@ def _curves(value):
     places = np.unique(np.linspace(0, len(columns) - 1, min(len(columns), MOST_POINTS)).astype(int))
     with np.errstate(all="ignore"):
         return [
-            [[int(i), float(f"{x:.6g}") if np.isfinite(x) else None] for i, x in zip(places, column, strict=True)]
+            [
+                [int(i), float(f"{x:.6g}") if np.isfinite(x) else None]
+                for i, x in zip(places, column, strict=True)
+            ]
             for column in columns[places].T.astype(float)
         ]
