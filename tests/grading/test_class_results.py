@@ -148,3 +148,33 @@ def test_only_our_own_failures_have_no_points():
     assert results.earned({"status": "grader_error", "checks": checks}) is None
     assert results.is_lower({"status": "ok", "checks": checks}, {"status": "grader_error", "checks": []})
     assert not results.is_lower({"status": "grader_error", "checks": []}, {"status": "ok", "checks": []})
+
+
+# A process of the grader that dies, as an engine's crash would make it.
+DYING_RUN = """
+import json, os, sys, time
+from exercises.grader.classroom import job, local
+def grade(text):
+    number = json.loads(text)["number"]
+    once = os.path.join(sys.argv[1], "once")
+    if number == 3 or number == 5 and not os.path.exists(once):
+        open(once, "w").close() if number == 5 else None
+        os.kill(os.getpid(), 9)
+    return json.dumps({"status": "ok", "number": number})
+job.grade = grade
+if __name__ == "__main__":
+    payloads = ((number, json.dumps({"number": number})) for number in range(10))
+    results = [(key, json.loads(text)["status"]) for key, text in local.run(payloads, 2, sys.argv[1])]
+    print(json.dumps(sorted(results)))
+"""
+
+
+def test_a_process_that_dies_costs_no_neighbour(tmp_path):
+    script = tmp_path / "run.py"
+    script.write_text(DYING_RUN)
+    environment = dict(os.environ, PYTHONPATH=str(exercises.FOLDER.parent))
+    done = subprocess.run(
+        [sys.executable, script, tmp_path], capture_output=True, text=True, env=environment, check=False
+    )
+    statuses = dict(json.loads(done.stdout))
+    assert statuses == {number: "grader_error" if number == 3 else "ok" for number in range(10)}, done.stderr

@@ -62,7 +62,10 @@ def find(submitted, students=None, units=None):
     found = {}
     for student in present:
         for unit, folder in _units_of(submitted / student, notes):
-            found[unit, student] = _choose(student, unit, folder)
+            if (unit, student) in found:
+                notes.append(f"{line(student)} has two folders of {unit}; {line(folder.name)} was left out")
+            else:
+                found[unit, student] = _choose(student, unit, folder)
     chosen = sorted({unit for unit, _ in found}) if not units else [exercises.slug(unit) for unit in units]
     return [found.get((u, s), Submission(s, u)) for u in chosen for s in everyone], notes
 
