@@ -15,7 +15,14 @@ TOOLS = ("numpy", "scipy", "numba", "matplotlib")
 NEEDED_BY_TOOLS = ("llvmlite", "mpl_toolkits", "pylab", "PIL", "contourpy", "kiwisolver", "cycler", "dateutil", "six",
                    "pyparsing", "packaging", "fontTools")  # fmt: skip
 PRESENT = {*sys.stdlib_module_names, "exercises", *TOOLS, *NEEDED_BY_TOOLS}
-HIDDEN = ("reference", "pymunk", "pybullet", "pybullet_data", "pybullet_utils", "IPython")  # if already imported
+HIDDEN = (
+    "reference",
+    "pymunk",
+    "pybullet",
+    "pybullet_data",
+    "pybullet_utils",
+    "IPython",
+)  # if already imported
 INERT = ("IPython", "ipywidgets", "matplotlib_inline")
 
 

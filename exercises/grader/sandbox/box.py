@@ -131,7 +131,12 @@ class Sandbox:
     def _open(self):
         """A fresh worker that holds the cells; none has run."""
         self.worker = Worker(self.kind, self.limits)
-        header = {"open": self.unit, "given": len(self.given), "file": len(self.data), "notebook": self.notebook}
+        header = {
+            "open": self.unit,
+            "given": len(self.given),
+            "file": len(self.data),
+            "notebook": self.notebook,
+        }
         try:
             self.worker.wire.send(_line(header) + self.given + self.data, LONGEST_OPEN)
             answer = json.loads(self.worker.wire.line(LONGEST_OPEN, LONGEST_TITLES))
@@ -167,14 +172,19 @@ class Sandbox:
             error = parse(line.decode("utf-8", "replace"))["error"]
             if not error or number in {trouble.number for trouble in self.troubles}:
                 return
-            lines = [f"{clean(error['kind'], 80)}: {clean(error['message'])}", *map(clean, error["lines"][:4])]
+            lines = [
+                f"{clean(error['kind'], 80)}: {clean(error['message'])}",
+                *map(clean, error["lines"][:4]),
+            ]
         except (BadReply, KeyError, TypeError, IndexError):
             lines = ["it sent something in place of a report"]
         self.troubles.append(Trouble(number, self.titles[number - 1], "\n".join(lines), False))
 
     def _leave_out(self, number, error):
         self.modes[number - 1] = LESS[self.modes[number - 1]]
-        kept = "its imports, definitions and literal assignments ran" if self.modes[number - 1] == "part" else ""
+        kept = (
+            "its imports, definitions and literal assignments ran" if self.modes[number - 1] == "part" else ""
+        )
         text = f"it was left out: {error}{self._last_words()}; {kept or 'its definitions too'}"
         self.troubles = [trouble for trouble in self.troubles if trouble.number != number]
         self.troubles.append(Trouble(number, self.titles[number - 1], clean(text), True))

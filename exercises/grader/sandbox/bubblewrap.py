@@ -38,7 +38,12 @@ def _binds(survey):
         arguments += ["--ro-bind", folder, folder]
         for name in sorted({entry.name for entry in Path(folder).iterdir() if entry.is_dir()}):
             if os.path.join(folder, name) not in survey.library:
-                arguments += ["--tmpfs", os.path.join(folder, name), "--remount-ro", os.path.join(folder, name)]
+                arguments += [
+                    "--tmpfs",
+                    os.path.join(folder, name),
+                    "--remount-ro",
+                    os.path.join(folder, name),
+                ]
     for path in (INTERPRETER, *survey.tools, *survey.system, *SYSTEM):
         arguments += ["--ro-bind-try", path, path]
     for path in DEVICES:

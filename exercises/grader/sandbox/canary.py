@@ -15,6 +15,12 @@ def sing(secret, witness, scratch):
         "reads a file outside": lambda: open(secret).close(),
         "lists a folder outside": lambda: os.listdir(os.path.dirname(secret)),
         "writes a file outside": lambda: open(secret + ".written", "w").close(),
+        "empties a file outside": lambda: _changes(secret, lambda: os.truncate(secret, 0)),
+        "empties a file by reading it": lambda: _changes(
+            secret, lambda: os.open(secret, os.O_RDONLY | os.O_TRUNC)
+        ),
+        "changes a file's mode": lambda: _changes(secret, lambda: os.chmod(secret, 0o600)),
+        "changes a file's time": lambda: _changes(secret, lambda: os.utime(secret, (1, 1))),
         "opens a socket": lambda: socket.socket(),
         "forks": _fork,
         "runs a program": lambda: subprocess.run(["/bin/true"], check=True),
@@ -38,6 +44,13 @@ def _works(attempt):
     except (OSError, MemoryError, RuntimeError, ValueError):
         return False
     return True
+
+
+def _changes(path, attempt):
+    before = os.stat(path)
+    attempt()
+    if os.stat(path) == before:
+        raise OSError("nothing changed")
 
 
 def _fork():

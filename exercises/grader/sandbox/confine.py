@@ -14,7 +14,9 @@ def arrange_pipes(inbox, outbox, kept=()):
     """The two pipes under known numbers, nothing at 0, 1 and 2, and no other open file."""
     nowhere = os.open(os.devnull, os.O_RDWR)
     wanted = (nowhere, nowhere, nowhere, inbox, outbox)
-    copies = [fcntl.fcntl(number, fcntl.F_DUPFD, 64) for number in wanted]  # out of the way of what they replace
+    copies = [
+        fcntl.fcntl(number, fcntl.F_DUPFD, 64) for number in wanted
+    ]  # out of the way of what they replace
     for number, copy in enumerate(copies):
         os.dup2(copy, number)
     keep = set(range(OUTBOX + 1)) | set(kept)
@@ -76,7 +78,11 @@ def _close_parent_folder(folder):
 def _own_user_namespace():
     user, group = os.getuid(), os.getgid()
     kernel.unshare(kernel.CLONE_NEWUSER | kernel.CLONE_NEWNS)
-    for name, text in (("setgroups", "deny"), ("uid_map", f"{user} {user} 1"), ("gid_map", f"{group} {group} 1")):
+    for name, text in (
+        ("setgroups", "deny"),
+        ("uid_map", f"{user} {user} 1"),
+        ("gid_map", f"{group} {group} 1"),
+    ):
         with open(f"/proc/self/{name}", "w") as file:
             file.write(text)
 
@@ -89,7 +95,10 @@ def become(user):
     os.setgroups([])
     os.setresgid(user, user, user)
     os.setresuid(user, user, user)
-    kernel.keep_only(kernel.CAP_DAC_READ_SEARCH)
+    try:
+        kernel.keep_only(kernel.CAP_DAC_READ_SEARCH)
+    except OSError:  # a container's root may not have it
+        kernel.keep_only()
 
 
 def drop_all():

@@ -32,7 +32,9 @@ class Isolation:
 @functools.cache
 def _probe(process):
     if sys.platform != "linux":
-        return Isolation(None, {sys.platform: "sandboxes are Linux's: run it in a Linux container, or in WSL2"})
+        return Isolation(
+            None, {sys.platform: "sandboxes are Linux's: run it in a Linux container, or in WSL2"}
+        )
     reasons = {}
     for kind in ("bubblewrap", "landlock", "landlock, scratch on disk"):
         reasons[kind] = trouble(kind)
@@ -57,8 +59,10 @@ def choose(unsafe=False):
 
 
 def trouble(kind):
-    """"ok", or why this kind cannot be used."""
-    if kind.split(",")[0] in os.environ.get(DISABLE, "").split(",") or kind in os.environ.get(DISABLE, "").split(";"):
+    """ "ok", or why this kind cannot be used."""
+    if kind.split(",")[0] in os.environ.get(DISABLE, "").split(",") or kind in os.environ.get(
+        DISABLE, ""
+    ).split(";"):
         return f"switched off by {DISABLE}"
     if kind == "bubblewrap" and not bubblewrap.available():
         return "the program bwrap is not installed"

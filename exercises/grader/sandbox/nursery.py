@@ -116,8 +116,12 @@ class Nursery:
 
 
 def user_of_workers():
-    """As root: a user whom nobody else is, since limits do not bind root. Else None: workers are the user's."""
-    return FIRST_FREE_USER + os.getpid() % FREE_USERS if os.getuid() == 0 else None
+    """As root: a user whom nobody else is, since limits do not bind root. Else None: workers are the user's; so,
+    too, for the root of a container that has no such user."""
+    user = FIRST_FREE_USER + os.getpid() % FREE_USERS
+    spans = [tuple(map(int, line.split())) for line in Path("/proc/self/uid_map").read_text().splitlines()]
+    known = any(first <= user < first + count for first, _, count in spans)
+    return user if os.getuid() == 0 and known else None
 
 
 def most_processes(user):

@@ -51,7 +51,9 @@ class Parent:
             from exercises.grader.sandbox import landlock
 
             scratch = machine["scratch"]
-            if machine["private_scratch"]:  # the rule of a folder that is mounted over counts no more: its parent's
+            if machine[
+                "private_scratch"
+            ]:  # the rule of a folder that is mounted over counts no more: its parent's
                 writable = {os.path.dirname(scratch): landlock.PRIVATE}
             else:
                 writable = {scratch: landlock.FLAT}

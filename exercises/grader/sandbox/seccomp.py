@@ -6,10 +6,11 @@ not; signals reach this process alone; memory may be made executable, since Numb
 
 import ctypes
 import errno
+import os
 import struct
 
 from exercises.grader.sandbox import kernel
-from exercises.grader.sandbox.syscalls import ALLOWED, GUARDED, MACHINES, UNKNOWN, numbers
+from exercises.grader.sandbox.syscalls import ALLOWED, GUARDED, MACHINES, PRETENDED, UNKNOWN, numbers
 
 LOAD, JUMP_EQUAL, JUMP_ABOVE, JUMP_ANY_BIT, RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 ALLOW, KILL, ERROR = 0x7FFF0000, 0x80000000, 0x00050000
@@ -17,10 +18,38 @@ NUMBER, ARCHITECTURE, ARGUMENTS = 0, 4, 16  # offsets in what the kernel hands t
 X32 = 0x40000000  # calls of the other, older numbering on x86-64 have this bit
 
 CLONE_THREAD, CLONE_NEW = 0x00010000, 0x7E020080 | 0x00002000  # all new namespaces; and CLONE_PTRACE
-FCNTL = (0, 1, 2, 3, 4, 5, 6, 7, 36, 37, 38, 1030, 1032, 1034)  # dup, flags, locks, seals read: no owner, no signal
-IOCTL = (0x5401, 0x541B, 0x5421, 0x5450, 0x5451, 0x5413)  # TCGETS, FIONREAD, FIONBIO, FIONCLEX, FIOCLEX, TIOCGWINSZ
+FCNTL = (
+    0,
+    1,
+    2,
+    3,
+    4,
+    5,
+    6,
+    7,
+    36,
+    37,
+    38,
+    1030,
+    1032,
+    1034,
+)  # dup, flags, locks, seals read: no owner, no signal
+IOCTL = (
+    0x5401,
+    0x541B,
+    0x5421,
+    0x5450,
+    0x5451,
+    0x5413,
+)  # TCGETS, FIONREAD, FIONBIO, FIONCLEX, FIOCLEX, TIOCGWINSZ
 PRCTL = (3, 15, 16, 21, 39, 0x53564D41)  # read dumpable, thread's name, read seccomp, naming of memory
-STREAM = (1, 0x801, 0x80001, 0x80801)  # pairs of stream sockets: they reach nobody else, as others could by a name
+O_TRUNC = 0o1000
+STREAM = (
+    1,
+    0x801,
+    0x80001,
+    0x80801,
+)  # pairs of stream sockets: they reach nobody else, as others could by a name
 
 
 def statement(code, value):
@@ -57,6 +86,17 @@ def thread_only():
     ]
 
 
+def no_emptying(position):
+    """Allow to open, but not to empty a file while opening it for reading: an older Landlock lets that through."""
+    return [
+        argument(position),
+        (JUMP_ANY_BIT, 0, 2, O_TRUNC),
+        (JUMP_ANY_BIT, 1, 0, os.O_WRONLY | os.O_RDWR),
+        refuse(),
+        statement(RETURN, ALLOW),
+    ]
+
+
 def program(machine, process):
     """The filter's instructions for a process with this id."""
     _, architecture = MACHINES[machine]
@@ -69,10 +109,16 @@ def program(machine, process):
     ]
     if machine == "x86_64":
         lines += [(JUMP_ABOVE, 0, 1, X32), statement(RETURN, KILL)]
+    hot = {"open": no_emptying(1), "openat": no_emptying(2)}
+    for name, test in hot.items():
+        if name in guarded:
+            lines += only_if(guarded.pop(name), test)
     for number in numbers(ALLOWED, machine).values():
         lines += only_if(number, [statement(RETURN, ALLOW)])
     for number in unknown.values():
         lines += only_if(number, [refuse(errno.ENOSYS)])
+    for number in numbers(PRETENDED, machine).values():
+        lines += only_if(number, [refuse(0)])
     tests = {
         "clone": thread_only(),
         **dict.fromkeys(("kill", "tgkill", "rt_sigqueueinfo", "rt_tgsigqueueinfo"), one_of(0, (process,))),

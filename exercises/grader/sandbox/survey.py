@@ -22,9 +22,18 @@ NOT_OF_THE_LIBRARY = {"site-packages", "dist-packages", "test", "idlelib", "ensu
 OURS = (
     "exercises/__init__.py",
     *(f"exercises/grader/{name}.py" for name in ("__init__", "absent", "cells", "ipython", "numba_cache")),
-    *(f"exercises/grader/{name}.py" for name in ("replies", "worker", "similarity")),
-    *(f"exercises/grader/sandbox/{name}.py" for name in ("__init__", "canary", "confine", "inside", "kernel")),
-    *(f"exercises/grader/sandbox/{name}.py" for name in ("landlock", "limits", "parent", "preload", "seccomp")),
+    *(
+        f"exercises/grader/{name}.py"
+        for name in ("replies", "worker", "classroom/__init__", "classroom/fingerprint")
+    ),
+    *(
+        f"exercises/grader/sandbox/{name}.py"
+        for name in ("__init__", "canary", "confine", "inside", "kernel")
+    ),
+    *(
+        f"exercises/grader/sandbox/{name}.py"
+        for name in ("landlock", "limits", "parent", "preload", "seccomp")
+    ),
     "exercises/grader/sandbox/syscalls.py",
 )
 SYSTEM = ("/etc/ld.so.cache", "/etc/localtime", "/usr/share/zoneinfo", "/proc/cpuinfo", "/proc/meminfo")
@@ -121,7 +130,12 @@ def _entries(folder):
 
 def _starters():
     """What the system starts programs by: it stands in each program under a fixed name."""
-    names = [entry for folder in ("/lib64", "/lib") if os.path.isdir(folder) for entry in Path(folder).glob("ld-*.so*")]
+    names = [
+        entry
+        for folder in ("/lib64", "/lib")
+        if os.path.isdir(folder)
+        for entry in Path(folder).glob("ld-*.so*")
+    ]
     return [str(entry.parent.resolve() / entry.name) for entry in names]
 
 
@@ -131,5 +145,7 @@ def _names_of(file):
     if not file.is_file():
         return []
     stem = file.name.split(".so")[0]
-    links = [entry for entry in file.parent.glob(f"{stem}*.so*") if entry.is_symlink() and entry.resolve() == file]
+    links = [
+        entry for entry in file.parent.glob(f"{stem}*.so*") if entry.is_symlink() and entry.resolve() == file
+    ]
     return [str(file), *map(str, links)]
