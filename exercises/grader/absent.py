@@ -1,5 +1,5 @@
-"""Stands in for all packages but a few: an exercise is solved with the standard library, NumPy, SciPy, Numba and
-Matplotlib, without the reference and without the engines that judge.
+"""Stands in for all packages but a few: an exercise is solved with the standard library, NumPy, SciPy, Numba
+and Matplotlib, without the reference and without the engines that judge.
 
 `import reference` in a student's cell goes through, so that the cell's other lines run, but using anything of
 it raises. So a notebook that leans on them fails in the shell as it will in class, and says why. What only
@@ -12,8 +12,10 @@ import sys
 import types
 
 TOOLS = ("numpy", "scipy", "numba", "matplotlib")
-NEEDED_BY_TOOLS = ("llvmlite", "mpl_toolkits", "pylab", "PIL", "contourpy", "kiwisolver", "cycler", "dateutil", "six",
-                   "pyparsing", "packaging", "fontTools")  # fmt: skip
+NEEDED_BY_TOOLS = (
+    "llvmlite", "mpl_toolkits", "pylab", "PIL", "contourpy", "kiwisolver", "cycler", "dateutil", "six",
+    "pyparsing", "packaging", "fontTools",
+)  # fmt: skip
 PRESENT = {*sys.stdlib_module_names, "exercises", *TOOLS, *NEEDED_BY_TOOLS}
 HIDDEN = (
     "reference",

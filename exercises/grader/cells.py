@@ -77,7 +77,8 @@ class Namespace:
         return None
 
     def run_definitions(self, source, name="cell"):
-        """Runs only a cell's imports, definitions and literal assignments, each whether or not others raise."""
+        """Runs only a cell's imports, definitions and literal assignments, each whether or not others
+        raise."""
         for part in definitions(source):
             self.run(part, name)
 

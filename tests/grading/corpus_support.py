@@ -64,8 +64,8 @@ def notebook_of(cells, **metadata):
 
 
 RIGHT = notebook_of(read_cells(SOLUTION))
-HOSTILE = [Submission(path) for path in sorted((FOLDER / "hostile").glob("*.py"))]
-HONEST = [Submission(path) for path in sorted((FOLDER / "honest").glob("*.py"))]
+HOSTILE = [Submission(path) for path in sorted((FOLDER / "hostile").glob("*.txt"))]
+HONEST = [Submission(path) for path in sorted((FOLDER / "honest").glob("*.txt"))]
 
 
 def checks():

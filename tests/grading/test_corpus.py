@@ -1,7 +1,7 @@
 """Every hostile submission earns nothing and reaches nothing, every honest one earns what it should.
 
-In the best isolation that works here the whole corpus runs; in the others the attacks that depend on the kind,
-and, with `-m slow`, all.
+In the best isolation that works here the whole corpus runs; in the others the attacks that depend on the
+kind, and, with `-m slow`, all.
 """
 
 import os
@@ -26,9 +26,12 @@ from tests.grading.corpus_support import (
 SHORT = Limits(cell=1.0, question=1.5, total=6.0)
 KINDS = [kind for kind in nursery.KINDS if kind != "none"]
 TELLING = {
-    "daemon", "disk_hog", "disk_of_names", "become_root", "environment", "files_outside", "fork_bomb", "fork_by_ctypes",
-    "import_engines", "links", "memory_shared", "neighbours_memory", "network", "open_files", "proc_environ", "proc_mem",
-    "raise_limits", "read_answers", "signals", "state_between_questions", "system_calls", "tamper_with_libraries",
+    "daemon", "disk_hog", "disk_of_names", "become_root", "environment", "files_outside", "fork_bomb",
+    "fork_by_ctypes",
+    "import_engines", "links", "memory_shared", "neighbours_memory", "network", "open_files",
+    "proc_environ", "proc_mem",
+    "raise_limits", "read_answers", "signals", "state_between_questions", "system_calls",
+    "tamper_with_libraries",
     "thread_bomb", "writes_files", "numba_functions", "threads", "solution_with_pictures", "scipy_used",
 }  # fmt: skip
 BEST = isolation.probe().kind
@@ -56,7 +59,8 @@ def use(kind, monkeypatch):
 
 
 def processes_of_workers():
-    """Processes that workers left: as root they have a user of their own; else they are beside our parents."""
+    """Processes that workers left: as root they have a user of their own; else they are beside our
+    parents."""
     user, found = nursery.user_of_workers(), []
     for folder in Path("/proc").glob("[0-9]*"):
         try:

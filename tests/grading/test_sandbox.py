@@ -324,8 +324,9 @@ def test_closing_leaves_nothing(kind):
 def test_a_grader_that_is_killed_takes_all_with_it():
     """Even by a signal that it cannot catch, in the middle of an endless question."""
     code = (
-        "import sys; from tests.grading.corpus_support import *; from exercises.grader.sandbox import Sandbox, nursery\n"
-        "box = Sandbox(UNIT); box.load(notebook_of([])); print(nursery.nursery(box.kind).process.pid, flush=True)\n"
+        "from tests.grading.corpus_support import *; from exercises.grader.sandbox import Sandbox, nursery\n"
+        "box = Sandbox(UNIT); box.load(notebook_of([]))\n"
+        "print(nursery.nursery(box.kind).process.pid, flush=True)\n"
         "box.load(notebook_of(['while True: pass']))"
     )
     grader = subprocess.Popen(

@@ -1,8 +1,10 @@
 """The sandbox: a student's code runs in it, and reaches neither answers, nor neighbours, nor the machine.
 
     grader's side       box         one submission: load its cells, put questions, status and troubles
+                        workers     one worker of it, seen from outside
                         nursery     the one parent process of a grader, started and talked to
                         wire        pipes with limits on time and length
+                        files, words   a student's file and words, handled with tongs
                         survey      which files the tools need
                         isolation   which kind of isolation works here, found by trying
                         bubblewrap  the command line of bwrap
@@ -25,8 +27,8 @@ _HOMES = {
     "Limits": "limits",
     "NoSandbox": "nursery",
     "SandboxError": "nursery",
-    "Trouble": "box",
-    "clean": "box",
+    "Trouble": "words",
+    "clean": "words",
     "close": "nursery",
     "probe": "isolation",
 }

@@ -1,40 +1,30 @@
 """One submission in the sandbox: its cells are loaded, then each question is put to a fresh worker."""
 
 import json
-import os
-import re
-import stat
 import time
-from dataclasses import dataclass
 from pathlib import Path
 
 import exercises
 from exercises.grader.replies import BadReply, parse
 from exercises.grader.sandbox import nursery as home
-from exercises.grader.sandbox.limits import Limits
+from exercises.grader.sandbox.files import compiled, contents
 from exercises.grader.sandbox.isolation import choose
-from exercises.grader.sandbox.wire import Gone, Wire
+from exercises.grader.sandbox.limits import Limits
+from exercises.grader.sandbox.wire import Gone
+from exercises.grader.sandbox.words import Trouble, clean
+from exercises.grader.sandbox.workers import Worker
 
 RANKS = ("ok", "unsandboxed", "timeout", "crashed", "rejected")
+DEATHS = {
+    -9: "it was killed",
+    -11: "a segmentation fault",
+    -6: "it aborted",
+    -24: "it used up its CPU time",
+    -31: "a system call that is not allowed",
+}
 LESS = {"whole": "part", "part": "no"}  # how much of a cell runs after it ended a worker
 LONGEST_OPEN, LONGEST_REPORT, LONGEST_TITLES = 30.0, 1 << 16, 1 << 21
 MOST_PARTS = 300_000  # of one reply: each costs the grader a hundred bytes or so to hold
-UNPRINTABLE = re.compile(r"\x1b\[[0-9;?]*[ -/]*[@-~]|\x1b.|[\x00-\x08\x0b-\x1f\x7f-\x9f‎‏‪-‮⁦-⁩\ud800-\udfff]")
-
-
-@dataclass(frozen=True)
-class Trouble:
-    """Cell `number` (from 1), which begins with `title`, raised; or was left out, but for its definitions."""
-
-    number: int
-    title: str
-    text: str
-    skipped: bool
-
-
-def clean(text, most=500):
-    """Text of a student's, fit for a terminal or a page: no control characters, not too long."""
-    return UNPRINTABLE.sub("", str(text)[: 4 * most])[:most]
 
 
 class Sandbox:
@@ -42,7 +32,7 @@ class Sandbox:
 
     def __init__(self, unit, given=None, limits=None, unsafe=False):
         self.unit, self.limits = unit, limits or Limits()
-        self.given = Path(given or exercises.FOLDER / unit / "given.py").read_bytes()
+        self.given = compiled(Path(given or exercises.FOLDER / unit / "given.py"))
         self.kind = choose(unsafe)
         self.isolation = self.kind.split(",")[0]
         self.status, self.reason = "unsandboxed" if self.kind == "none" else "ok", ""
@@ -59,13 +49,13 @@ class Sandbox:
     def cells(self):
         return len(self.titles)
 
-    # --- what the grader asks ----------------------------------------------------------------------------------
+    # --- what the grader asks -------------------------------------------------------------------------------
 
     def load(self, source):
         """Runs all cells of a notebook or script, a path or its bytes. Returns the box itself."""
         self.started = time.monotonic()
         try:
-            self.data, self.notebook = _contents(source, self.limits.notebook)
+            self.data, self.notebook = contents(source, self.limits.notebook)
             self._open()
             self._run_cells(self.limits.cell)
         except (OSError, ValueError) as error:
@@ -94,8 +84,8 @@ class Sandbox:
             self.seconds += time.monotonic() - self.started
 
     def task(self, name, extra=None):
-        """What our own function TASKS[name] makes of the cells, in a worker that runs none of them; None if that
-        fails."""
+        """What our own function TASKS[name] makes of the cells, in a worker that runs none of them; None if
+        that fails."""
         if self.status == "rejected":
             return None
         self._end()
@@ -108,14 +98,15 @@ class Sandbox:
         finally:
             self._end()
 
-    # --- workers -----------------------------------------------------------------------------------------------
+    # --- workers --------------------------------------------------------------------------------------------
 
     def _answer(self, text):
         if self.worker is None:
             self._open()
             self._run_cells(2 * self.limits.cell)
-        self.worker.wire.send(text.encode() + b"\n", self._left(self.limits.question))
-        return self._reply(self._left(self.limits.question))
+        seconds = min(self.limits.question, self.limits.call * len(json.loads(text)["calls"]))
+        self.worker.wire.send(text.encode() + b"\n", self._left(seconds))
+        return self._reply(self._left(seconds))
 
     def _reply(self, seconds):
         try:
@@ -198,9 +189,7 @@ class Sandbox:
     def _last_words(self):
         """How the worker died, in words."""
         code = self._end()
-        names = {-9: "it was killed", -11: "a segmentation fault", -6: "it aborted", -24: "it used up its CPU time",
-                 -31: "a system call that is not allowed"}  # fmt: skip
-        return "" if code is None else f" ({names.get(code, f'exit code {code}')})"
+        return "" if code is None else f" ({DEATHS.get(code, f'exit code {code}')})"
 
     def _end(self):
         if self.worker is None:
@@ -215,41 +204,5 @@ class Sandbox:
             self.status, self.reason = status, clean(reason)
 
 
-class Worker:
-    """One fork of the parent, and the wire to it."""
-
-    def __init__(self, kind, limits):
-        self.kind, self.wire = kind, Wire()
-        try:
-            self.pid = home.nursery(kind).spawn(limits, self.wire)
-        except home.SandboxError:
-            home.forget(kind)  # once more, with a new parent: that one may have fallen to a lack of memory
-            self.pid = home.nursery(kind).spawn(limits, self.wire)
-        self.wire.release()
-
-    def end(self):
-        self.wire.close()
-        try:
-            return home.nursery(self.kind).end(self.pid)
-        except home.SandboxError:
-            home.forget(self.kind)
-            return None, 0.0
-
-
 def _line(message):
     return json.dumps(message).encode() + b"\n"
-
-
-def _contents(source, longest):
-    """(bytes, whether it is a notebook) of a path or of bytes. No link is followed, nothing but a file is read."""
-    if isinstance(source, bytes):
-        data, notebook = source, True
-    else:
-        number = os.open(source, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
-        with os.fdopen(number, "rb") as file:
-            if not stat.S_ISREG(os.fstat(number).st_mode):
-                raise ValueError("it is not a file")
-            data, notebook = file.read(longest + 1), str(source).endswith(".ipynb")
-    if len(data) > longest:
-        raise ValueError(f"it has more than {longest:,} bytes")
-    return data, notebook

@@ -1,4 +1,5 @@
-"""The command line of bubblewrap: new namespaces of every kind, and a root folder that holds the allow-list only."""
+"""The command line of bubblewrap: new namespaces of every kind, and a root folder that holds the allow-list
+only."""
 
 import os
 import shutil

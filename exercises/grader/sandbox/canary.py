@@ -9,8 +9,8 @@ import threading
 
 
 def sing(secret, witness, scratch):
-    """Names of what got through, or did not work that must. `secret` is a file that must not be read, `witness` a
-    process that must not be reached."""
+    """Names of what got through, or did not work that must. `secret` is a file that must not be read,
+    `witness` a process that must not be reached."""
     attempts = {
         "reads a file outside": lambda: open(secret).close(),
         "lists a folder outside": lambda: os.listdir(os.path.dirname(secret)),

@@ -42,7 +42,7 @@ def shut_in(box):
         os.close(box["ruleset"].number)
     kernel.prctl(kernel.PR_SET_NO_NEW_PRIVS, 1)
     if user is None:
-        drop_all()
+        kernel.keep_only()
     kernel.prctl(kernel.PR_SET_PDEATHSIG, signal.SIGKILL)  # last: a change of user takes it back
     seccomp.confine(os.getpid())
 
@@ -67,7 +67,8 @@ def mount_scratch(folder, size, user):
 
 
 def _close_parent_folder(folder):
-    """What lies around the scratch folder is read-only for this process, whatever Landlock lets it do there."""
+    """What lies around the scratch folder is read-only for this process, whatever Landlock lets it do
+    there."""
     around = os.path.dirname(folder)
     if around != "/":
         kernel.mount(around, around, None, kernel.MS_BIND)
@@ -88,10 +89,9 @@ def _own_user_namespace():
 
 
 def become(user):
-    """From root to a user whom nobody else is. What Landlock or bubblewrap lets it see, it may read, wherever the
-    interpreter is installed."""
+    """From root to a user whom nobody else is. What Landlock or bubblewrap lets it see, it may read, wherever
+    the interpreter is installed."""
     kernel.prctl(kernel.PR_SET_KEEPCAPS, 1)
-    kernel.drop_bounds()
     os.setgroups([])
     os.setresgid(user, user, user)
     os.setresuid(user, user, user)
@@ -99,8 +99,3 @@ def become(user):
         kernel.keep_only(kernel.CAP_DAC_READ_SEARCH)
     except OSError:  # a container's root may not have it
         kernel.keep_only()
-
-
-def drop_all():
-    kernel.drop_bounds()
-    kernel.keep_only()

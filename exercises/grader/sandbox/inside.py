@@ -1,9 +1,9 @@
 """The worker's loop: parse the notebook, run its cells, answer one question, end.
 
-Messages come one a line, in JSON; bytes that belong to one follow its line. Until the first cell runs, what is
-sent back is our own word; after that it is the student's.
+Messages come one a line, in JSON; bytes that belong to one follow its line. Until the first cell runs, what
+is sent back is our own word; after that it is the student's.
 
-    {"open": slug, "given": n, "file": m, "notebook": bool}   n bytes of given.py, m of the file
+    {"open": slug, "given": n, "file": m, "notebook": bool}   n bytes of given.py's code, m of the file
                                          → {"titles": [first line of each cell]} or {"rejected": why}
     {"run": [["whole" or "part" or "no", number], ...]}       → {"done": number, "error": ...} for each
     {"calls": [...]}                                          → {"replies": [...]}, and the end
@@ -13,6 +13,7 @@ sent back is our own word; after that it is the student's.
 
 import importlib
 import json
+import marshal
 import os
 import sys
 import types
@@ -54,7 +55,7 @@ class Inside:
             return {"rejected": f"the file is not a notebook of at most {MOST_CELLS} cells"}
         self.namespace = Namespace()
         sys.modules["__main__"] = self.namespace.module
-        module = load_given(request["open"], given.decode())
+        module = load_given(request["open"], given)
         self.worker = Worker(self.namespace.names, module)
         return {"titles": [title(cell) for cell in self.cells]}
 
@@ -84,10 +85,11 @@ class Inside:
             rest = rest[os.write(self.outbox, rest) :]
 
 
-def load_given(unit, source):
-    """given.py as the module that `load` finds, and `load` told that there is this unit alone."""
+def load_given(unit, code):
+    """given.py, compiled by the grader, as the module that `load` finds; and `load` told that there is this
+    unit alone."""
     module = types.ModuleType(f"exercises.{unit}.given")
-    exec(compile(source, "given.py", "exec"), module.__dict__)
+    exec(marshal.loads(code), module.__dict__)
     sys.modules[module.__name__] = module
     exercises.units = lambda: [unit]
     return module

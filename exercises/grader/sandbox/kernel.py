@@ -1,4 +1,5 @@
-"""The few calls to the kernel that Python does not offer, by ctypes. Linux only; each raises OSError when refused."""
+"""The few calls to the kernel that Python does not offer, by ctypes. Linux only; each raises OSError when
+refused."""
 
 import ctypes
 import os

@@ -1,4 +1,5 @@
-"""Landlock: from now on this process sees no files but those allowed. By raw system calls (Linux 5.13 and newer)."""
+"""Landlock: from now on this process sees no files but those allowed. By raw system calls (Linux 5.13 and
+newer)."""
 
 import ctypes
 import fcntl

@@ -1,5 +1,5 @@
-"""The one parent process of a grader: started at the first use, in the best isolation that works here, and ended
-with the grader."""
+"""The one parent process of a grader: started at the first use, in the best isolation that works here, and
+ended with the grader."""
 
 import atexit
 import contextlib
@@ -61,7 +61,8 @@ class Nursery:
                 pass_fds=(theirs.fileno(),), start_new_session=True, env=environment(self.scratch),
             )  # fmt: skip
         machine = {
-            "landlock": self.kind.startswith("landlock"), "confined": self.kind != "none", "scratch": self.scratch,
+            "landlock": self.kind.startswith("landlock"), "confined": self.kind != "none",
+            "scratch": self.scratch,
             "private_scratch": self.kind in ("bubblewrap", "landlock"), "user": user, "loaded": known.loaded,
             "processes": most_processes(user), "readable": known.readable, "listable": known.listable,
         }  # fmt: skip
@@ -116,8 +117,8 @@ class Nursery:
 
 
 def user_of_workers():
-    """As root: a user whom nobody else is, since limits do not bind root. Else None: workers are the user's; so,
-    too, for the root of a container that has no such user."""
+    """As root: a user whom nobody else is, since limits do not bind root. Else None: workers are the user's;
+    so, too, for the root of a container that has no such user."""
     user = FIRST_FREE_USER + os.getpid() % FREE_USERS
     spans = [tuple(map(int, line.split())) for line in Path("/proc/self/uid_map").read_text().splitlines()]
     known = any(first <= user < first + count for first, _, count in spans)
@@ -125,7 +126,8 @@ def user_of_workers():
 
 
 def most_processes(user):
-    """What the user may have, in threads: for its own user that many, else so many more than there are now."""
+    """What the user may have, in threads: for its own user that many, else so many more than there are
+    now."""
     if user is not None:
         return limits.THREADS
     count = 0

@@ -1,5 +1,5 @@
-"""The in-sandbox parent. It runs no student code and reads nothing of a student's: a worker's pipes come from the
-grader and go to the worker. So a fork of it holds nothing of a neighbour's either.
+"""The in-sandbox parent. It runs no student code and reads nothing of a student's: a worker's pipes come from
+the grader and go to the worker. So a fork of it holds nothing of a neighbour's either.
 
 Over a socket (fd given as argument) come, one message each:
 
@@ -61,6 +61,11 @@ class Parent:
             machine["ruleset"] = landlock.Ruleset(machine["readable"], machine["listable"], writable)
         else:
             machine["ruleset"] = None
+        if machine["confined"]:
+            from exercises.grader.sandbox import kernel, seccomp
+
+            kernel.drop_bounds()  # no capability comes back to a worker
+            seccomp.prepare()
         preload.settle()
         self.machine = machine
         return {"ready": True}
@@ -91,9 +96,7 @@ class Parent:
             except OSError as error:
                 os.write(confine.OUTBOX, json.dumps({"unconfined": str(error)}).encode() + b"\n")
                 os._exit(71)
-            sys.stdin, sys.stdout, sys.stderr = (
-                open(number, mode, encoding="utf-8", errors="replace") for number, mode in enumerate("rww")
-            )
+            sys.stdin, sys.stdout, sys.stderr = map(_text_file, (0, 1, 2), "rww")
             Inside(confine.INBOX, confine.OUTBOX).serve()
             code = 0
         except BaseException:  # a student's SystemExit in a thread, MemoryError ...: the worker ends, no more
@@ -113,7 +116,7 @@ class Parent:
         self.wipe_scratch()
         return {"code": os.waitstatus_to_exitcode(status), "cpu": cpu}
 
-    # --- a scratch folder on disk, where none can be mounted: flat, watched, wiped after each worker -----------
+    # --- a scratch folder on disk, where none can be mounted: flat, watched, wiped after each worker --------
 
     def watches(self):
         return not self.machine["private_scratch"] and self.machine["confined"]
@@ -135,6 +138,10 @@ class Parent:
 def _children_cpu():
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
+
+
+def _text_file(number, mode):
+    return open(number, mode, encoding="utf-8", errors="replace")
 
 
 def main(number):

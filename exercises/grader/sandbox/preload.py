@@ -16,7 +16,8 @@ MODULES = (
     "numba", "numba.np.ufunc.parallel", "matplotlib", "matplotlib.pyplot",
     "asyncio", "dataclasses", "typing", "functools", "itertools", "collections", "fractions", "decimal",
     "statistics", "time", "timeit", "copy", "pprint", "unittest", "ssl", "sqlite3", "lzma", "bz2", "zlib",
-    "ctypes", "multiprocessing", "concurrent.futures", "threading", "subprocess", "curses", "readline", "uuid",
+    "ctypes", "multiprocessing", "concurrent.futures", "threading", "subprocess", "curses", "readline",
+    "uuid",
 )  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """Which files a student's tools need: the allow-list, as paths of this machine.
 
-A throwaway process loads all that the parent will load, runs nothing of a student's, and tells which libraries
-the system mapped for it: so no folder of the system's needs to be opened as a whole.
+A throwaway process loads all that the parent will load, runs nothing of a student's, and tells which
+libraries the system mapped for it: so no folder of the system's needs to be opened as a whole.
 """
 
 import functools
@@ -69,8 +69,8 @@ def environment(scratch):
     threads = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "BLIS")}
     return {
         **threads, "NUMBA_NUM_THREADS": "4", "NUMBA_THREADING_LAYER": "workqueue", "MPLBACKEND": "Agg",
-        "HOME": scratch, "TMPDIR": scratch, "MPLCONFIGDIR": scratch, "PATH": "/usr/bin:/bin", "LANG": "C.UTF-8",
-        "PYTHONUTF8": "1", "TZ": "UTC",
+        "HOME": scratch, "TMPDIR": scratch, "MPLCONFIGDIR": scratch, "PATH": "/usr/bin:/bin",
+        "LANG": "C.UTF-8", "PYTHONUTF8": "1", "TZ": "UTC",
     }  # fmt: skip
 
 

@@ -12,7 +12,8 @@ ALLOWED = {
     "rt_sigaction": (13, 134), "rt_sigprocmask": (14, 135), "rt_sigreturn": (15, 139),
     "getdents64": (217, 61), "readlink": (89, None), "readlinkat": (267, 78), "stat": (4, None),
     "lstat": (6, None), "statx": (332, 291), "access": (21, None), "faccessat": (269, 48),
-    "faccessat2": (439, 439), "readv": (19, 65), "writev": (20, 66), "pread64": (17, 67), "pwrite64": (18, 68),
+    "faccessat2": (439, 439), "readv": (19, 65), "writev": (20, 66), "pread64": (17, 67),
+    "pwrite64": (18, 68),
     "preadv": (295, 69), "pwritev": (296, 70), "preadv2": (327, 286), "pwritev2": (328, 287),
     "poll": (7, None), "ppoll": (271, 73), "select": (23, None), "pselect6": (270, 72),
     "mremap": (25, 216), "msync": (26, 227), "mincore": (27, 232), "sigaltstack": (131, 132),
@@ -31,7 +32,7 @@ ALLOWED = {
     "fadvise64": (221, 223), "statfs": (137, 43), "fstatfs": (138, 44), "getdents": (78, None),
     "getcwd": (79, 17), "chdir": (80, 49), "fchdir": (81, 50), "rename": (82, None), "renameat": (264, 38),
     "renameat2": (316, 276), "mkdir": (83, None), "mkdirat": (258, 34), "rmdir": (84, None),
-    "unlink": (87, None), "unlinkat": (263, 35), 
+    "unlink": (87, None), "unlinkat": (263, 35),
     "umask": (95, 166), "sendfile": (40, 71),
     "copy_file_range": (326, 285), "getrlimit": (97, 163), "setrlimit": (160, 164), "getrusage": (98, 165),
     "sysinfo": (99, 179), "times": (100, 153), "set_robust_list": (273, 99), "get_robust_list": (274, 100),
@@ -55,10 +56,12 @@ GUARDED = {
 
 # Answered with "done", and not done: Landlock does not guard the modes and times of files outside.
 PRETENDED = {
-    "chmod": (90, None), "fchmod": (91, 52), "fchmodat": (268, 53), "utimensat": (280, 88), "utimes": (235, None),
+    "chmod": (90, None), "fchmod": (91, 52), "fchmodat": (268, 53), "utimensat": (280, 88),
+    "utimes": (235, None),
 }  # fmt: skip
 
-# Answered as a kernel answers that does not know them yet: callers then take the older call, which is guarded.
+# Answered as a kernel answers that does not know them yet: callers then take the older call, which is
+# guarded.
 UNKNOWN = {"clone3": (435, 435), "openat2": (437, 437), "fchmodat2": (452, 452)}
 
 MACHINES = {"x86_64": (0, 0xC000003E), "aarch64": (1, 0xC00000B7)}  # column above, and the kernel's own name

@@ -1,5 +1,5 @@
-"""Two pipes to a worker, with a limit on the time and the length of everything. A worker that floods, drips, stops
-reading or dies costs the grader its time limit at most."""
+"""Two pipes to a worker, with a limit on the time and the length of everything. A worker that floods, drips,
+stops reading or dies costs the grader its time limit at most."""
 
 import os
 import select
