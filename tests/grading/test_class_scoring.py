@@ -201,6 +201,19 @@ def test_a_judge_that_raises_is_our_failure():
     assert result["status"] == "grader_error" and "ZeroDivisionError" in result["reason"]
 
 
+class Refusing(PlainBox):
+    def load(self, data):
+        super().load(data)
+        self.status, self.reason = "rejected", "the worker ended"
+
+
+def test_a_sandbox_that_refuses_everyone_gives_nobody_a_0(tmp_path, monkeypatch):
+    plant(tmp_path, {"ada": solution(0)})
+    monkeypatch.setattr(workers, "open_box", lambda unit, unsafe: Refusing(unit))
+    score = grade(tmp_path)[0]["ada"]
+    assert (score.status, score.final) == ("grader_error", None) and "innocent" in score.result["reason"]
+
+
 def test_another_machine_with_other_checks_does_not_grade():
     data = json.loads(job.payload(UNIT.slug, b"{}", "{}", []))
     result = json.loads(job.grade(json.dumps({**data, "checks": "other"})))

@@ -43,7 +43,10 @@ def grade(text):
     """The result of one submission, as text."""
     began, cpu = time.monotonic(), time.thread_time()
     try:
-        result = _grade(json.loads(text))
+        job = json.loads(text)
+        result = _grade(job)
+        if result["status"] in ("rejected", "crashed"):
+            _require_a_sandbox_that_works(job, result["reason"])
     except Exception as error:
         result = grader_error(f"{type(error).__name__}: {error}", traceback.format_exc(limit=-6))
     result["seconds"] = round(time.monotonic() - began, 3)
@@ -84,6 +87,12 @@ def _grade(job):
             "student_cpu": round(box.cpu, 3),
             "fingerprint": {} if rejected else workers.fingerprint(box, notebook, job["starter"]),
         }
+
+
+def _require_a_sandbox_that_works(job, reason):
+    """A notebook's failure is its own only where an innocent one passes."""
+    if not workers.takes_the_innocent(job["unit"], job["unsafe"]):
+        raise RuntimeError(f"the sandbox fails innocent notebooks too: {reason}")
 
 
 @cache

@@ -1,5 +1,6 @@
 """The door to the sandbox: one submission at a time in a process, and what its result may hold."""
 
+import json
 from pathlib import Path
 
 import exercises
@@ -15,6 +16,15 @@ def probe():
 
 def open_box(unit, unsafe):
     return sandbox.Sandbox(unit, given=exercises.FOLDER / unit / "given.py", unsafe=unsafe)
+
+
+def takes_the_innocent(unit, unsafe):
+    """True if the sandbox runs a notebook that can do no harm: else what befell another is no fault of its"""
+    cell = {"cell_type": "code", "metadata": {}, "source": "def one():\n    return 1"}
+    with open_box(unit, unsafe) as box:
+        box.load(json.dumps({"cells": [cell]}).encode())
+        answer = box.ask(json.dumps({"calls": [{"function": "one", "arguments": []}]}))
+        return box.status in ("ok", "unsandboxed") and json.loads(answer) == {"replies": [{"value": 1}]}
 
 
 def fingerprint(box, notebook, starter):
