@@ -1,6 +1,7 @@
 """A real Dask cluster: a scheduler and two workers, one of them killed half way."""
 
 import importlib.util
+import json
 import os
 import signal
 import socket
@@ -15,7 +16,7 @@ import pytest
 import exercises
 from exercises.grader.classroom import cluster as class_cluster
 from exercises.grader.classroom.files import Trouble
-from reference import cluster
+from reference import bench, cluster
 from tests.grading.class_support import UNIT, grade, plant, solution
 
 ROOT = exercises.FOLDER.parent
@@ -130,3 +131,16 @@ def test_a_scheduler_that_is_not_there(monkeypatch):
 def test_dask_is_pinned():
     pins = (Path(ROOT) / "environment.txt").read_text(encoding="utf-8")
     assert "\ndistributed==" in pins and "\ndask==" in pins
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(NO_DASK, reason="dask is not installed here")
+def test_the_benchmark_on_a_cluster(tmp_path, processes):
+    port = free_port()
+    address = f"tcp://127.0.0.1:{port}"
+    processes("dask_scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard")
+    processes("dask_worker", address, "--nthreads", "1", "--no-dashboard", "--no-nanny")
+    bench.main(["free_fall", "spring", "--quick", "--out", str(tmp_path), "--scheduler", address])
+    rows = [json.loads(line) for line in (tmp_path / "bench.jsonl").read_text(encoding="utf-8").splitlines()]
+    assert {"free_fall", "spring"} <= {row["case"].split("/")[0] for row in rows}
+    assert any(row["status"] == "ok" and row["cpu_s"] > 0 for row in rows)
