@@ -8,12 +8,13 @@ back.
     what comes in    submissions  whose notebook is where, and whether it may be read at all
                      collect      a download from Canvas or Moodle → submitted/<student>/<unit>/
                      roster       the instructor's own files: roster.csv, deadlines.csv, manual.csv
-    grading          cases        the secret seed, and the hidden cases that were drawn from it
+    grading          run          all of it, in order
+                     batch        what is not finished yet
+                     cases        the secret seed, and the hidden cases that were drawn from it
                      job          one submission: notebook in, result out, both JSON text
                      local        jobs on this machine
                      cluster      jobs on a Dask cluster
                      results      what is finished stays finished
-                     run          all of it, in order
     what goes out    told         what of a check's result its student may read
                      feedback     a page for each submission;  page: its frame;  curve: its plots
                      scores       points, penalties, manual points: scores.csv
