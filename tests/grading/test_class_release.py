@@ -133,9 +133,17 @@ def test_the_bundle_works_where_there_is_no_engine(bundle):
     assert "FAILED  plate" in done.stdout and "answers kept in this copy" in done.stdout, done.stderr
 
 
-def test_instructors_commands_are_not_in_the_bundle(bundle):
-    done = in_bundle(bundle, "course.py", "grade", "x")
+@pytest.mark.parametrize("command", [["grade", "x"], ["release"], ["collect", "x.zip"]])
+def test_instructors_commands_are_not_in_the_bundle(command, bundle):
+    done = in_bundle(bundle, "course.py", *command)
     assert done.returncode == 2 and "students' copy" in done.stderr
+
+
+def test_the_bundles_pages_lead_somewhere(bundle):
+    course = bundle / "course"
+    for page in [*course.glob("*.md"), *course.glob("lectures/*.md"), *course.glob("notebooks/*.ipynb")]:
+        for link in re.findall(r"\]\(([^)#:]+?)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+            assert (page.parent / link).exists() or "$" in link or "\\\\" in link, (page.name, link)
 
 
 def test_nbgraders_layout_and_metadata(bundle):

@@ -40,6 +40,11 @@ def _use(folder):
 
 
 def grade(options):
+    if not sys.platform.startswith("linux"):
+        raise Trouble(
+            "A class is graded on Linux, whose kernel holds the sandbox. On Windows use WSL2, on macOS the "
+            "container of exercises/grader/Containerfile: lectures/instructors.md says how."
+        )
     from exercises.grader.classroom.run import Options
     from exercises.grader.classroom.run import grade as grade_class
     from exercises.grader.sandbox import NoSandbox

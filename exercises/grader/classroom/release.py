@@ -44,20 +44,31 @@ def bundle():
     """(name, bytes) of every file of the students' course."""
     root = Path(exercises.__file__).resolve().parents[1]
     for name in TOP:
-        if (root / name).is_file():
-            yield name, (root / name).read_bytes()
+        path = root / name
+        if path.is_file():
+            yield name, for_students(path) if path.suffix == ".md" else path.read_bytes()
     for folder in FOLDERS:
         for path in sorted((root / folder).rglob("*")):
             name = path.relative_to(root).as_posix()
             hidden = any(part.startswith((".", "__pycache__")) for part in path.relative_to(root).parts)
             if path.is_file() and path.suffix in KINDS and name not in FOR_INSTRUCTORS and not hidden:
-                yield name, path.read_bytes()
+                yield name, for_students(path) if path.suffix == ".md" else path.read_bytes()
     yield "exercises/__init__.py", (root / "exercises" / "__init__.py").read_bytes()
     for path in sorted((root / "exercises" / "grader").glob("*.py")):
         if path.name not in KEPT_BACK:
             yield f"exercises/grader/{path.name}", path.read_bytes()
     for unit in exercises.units():
         yield from _unit(unit)
+
+
+def for_students(path):
+    """A page without what is an instructor's: their section, and lines of lists that lead to their pages."""
+    text = path.read_text(encoding="utf-8")
+    text = re.sub(r"^## If you are an instructor\n.*?(?=^## )", "", text, flags=re.MULTILINE | re.DOTALL)
+    names = "|".join(re.escape(Path(name).name) for name in FOR_INSTRUCTORS)
+    return re.sub(rf"^- \[.*\]\((?:lectures/)?(?:{names})\).*\n", "", text, flags=re.MULTILINE).encode(
+        "utf-8"
+    )
 
 
 def _unit(unit):
