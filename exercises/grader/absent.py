@@ -25,7 +25,7 @@ HIDDEN = (
     "pybullet_utils",
     "IPython",
 )  # if already imported
-INERT = ("IPython", "ipywidgets", "matplotlib_inline")
+INERT = ("IPython", "ipywidgets", "matplotlib_inline", "tqdm", "google")
 
 
 def is_present(name):
@@ -66,7 +66,9 @@ class _Inert:
     """Any name of a package that only shows things. Whatever is done with it, nothing happens."""
 
     def __call__(self, *arguments, **options):
-        return arguments[0] if len(arguments) == 1 and callable(arguments[0]) else self  # as a decorator, too
+        return (
+            arguments[0] if arguments else self
+        )  # tqdm(range(9)) is range(9), and a decorator changes nothing
 
     def __getattr__(self, name):
         if name.startswith("__"):
@@ -91,7 +93,8 @@ class _Module(types.ModuleType):
         if name.startswith("__"):
             raise AttributeError(name)
         if self.__name__.split(".")[0] in INERT:
-            return sys.modules["__main__"].get_ipython if name == "get_ipython" else INERT_THING
+            known = {"get_ipython": lambda: sys.modules["__main__"].get_ipython(), "trange": range}
+            return known.get(name, INERT_THING)
         return _Use(f"{self.__name__}.{name}")
 
 

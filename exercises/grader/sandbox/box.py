@@ -23,7 +23,7 @@ DEATHS = {
     -31: "a system call that is not allowed",
 }
 LESS = {"whole": "part", "part": "no"}  # how much of a cell runs after it ended a worker
-LONGEST_OPEN, LONGEST_REPORT, LONGEST_TITLES = 30.0, 1 << 16, 1 << 21
+LONGEST_OPEN, LONGEST_REPORT, LONGEST_TITLES, LONGEST_CELLS = 30.0, 1 << 16, 1 << 21, 1 << 23
 MOST_PARTS = 300_000  # of one reply: each costs the grader a hundred bytes or so to hold
 
 
@@ -36,7 +36,7 @@ class Sandbox:
         self.kind = choose(unsafe)
         self.isolation = self.kind.split(",")[0]
         self.status, self.reason = "unsandboxed" if self.kind == "none" else "ok", ""
-        self.troubles, self.titles, self.modes, self.data = [], [], [], b""
+        self.troubles, self.titles, self.modes, self.data, self.form = [], [], [], b"", ""
         self.worker, self.started, self.seconds, self.cpu = None, time.monotonic(), 0.0, 0.0
 
     def __enter__(self):
@@ -55,13 +55,15 @@ class Sandbox:
         """Runs all cells of a notebook or script, a path or its bytes. Returns the box itself."""
         self.started = time.monotonic()
         try:
-            self.data, self.notebook = contents(source, self.limits.notebook)
+            self.data, self.form = contents(source, self.limits.notebook)
             self._open()
             self._run_cells(self.limits.cell)
         except (OSError, ValueError) as error:
             self._tell("rejected", f"the file cannot be read: {error}")
         except Gone as error:
-            self._tell("timeout" if error.late and self.titles else "rejected", str(error))
+            self._end()
+            opened = "timeout" if error.late else "crashed"
+            self._tell(opened if self.form == "cells" else "rejected", str(error))
         finally:
             self.seconds += time.monotonic() - self.started
         return self
@@ -122,23 +124,20 @@ class Sandbox:
     def _open(self):
         """A fresh worker that holds the cells; none has run."""
         self.worker = Worker(self.kind, self.limits)
-        header = {
-            "open": self.unit,
-            "given": len(self.given),
-            "file": len(self.data),
-            "notebook": self.notebook,
-        }
+        header = {"open": self.unit, "given": len(self.given), "file": len(self.data), "form": self.form}
         try:
             self.worker.wire.send(_line(header) + self.given + self.data, LONGEST_OPEN)
             answer = json.loads(self.worker.wire.line(LONGEST_OPEN, LONGEST_TITLES))
+            if "unconfined" in answer:
+                raise home.SandboxError(f"a worker could not be shut in: {answer['unconfined']}")
+            if "rejected" in answer:
+                raise Gone(clean(answer["rejected"]))
+            if self.form != "cells":  # from now on the cells' source alone goes in, as the worker wrote it
+                self.data, self.form = self.worker.wire.line(LONGEST_OPEN, LONGEST_CELLS), "cells"
+                self.titles = [clean(title, 60) for title in answer["titles"]]
+                self.modes = ["whole"] * len(self.titles)
         except Gone as error:
-            raise Gone(f"the file cannot be read: {error}") from None
-        if "unconfined" in answer:
-            raise home.SandboxError(f"a worker could not be shut in: {answer['unconfined']}")
-        if "rejected" in answer:
-            raise ValueError(clean(answer["rejected"]))
-        self.titles = [clean(title, 60) for title in answer["titles"]]
-        self.modes = self.modes or ["whole"] * len(self.titles)
+            raise Gone(f"the file cannot be read: {error}", error.late) from None
 
     def _run_cells(self, seconds):
         """All cells, in this worker or, where one ends it, in the next."""
@@ -167,7 +166,7 @@ class Sandbox:
                 f"{clean(error['kind'], 80)}: {clean(error['message'])}",
                 *map(clean, error["lines"][:4]),
             ]
-        except (BadReply, KeyError, TypeError, IndexError):
+        except (BadReply, KeyError, TypeError, IndexError, RecursionError):
             lines = ["it sent something in place of a report"]
         self.troubles.append(Trouble(number, self.titles[number - 1], "\n".join(lines), False))
 

@@ -7,19 +7,20 @@ import stat
 
 
 def contents(source, longest):
-    """(bytes, whether it is a notebook) of a path or of bytes. No link is followed, nothing but a file is
+    """(bytes, "notebook" or "script") of a path or of bytes. No link is followed, nothing but a file is
     read."""
     if isinstance(source, bytes):
-        data, notebook = source, True
+        data, form = source, "notebook"
     else:
         number = os.open(source, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC)
         with os.fdopen(number, "rb") as file:
             if not stat.S_ISREG(os.fstat(number).st_mode):
                 raise ValueError("it is not a file")
-            data, notebook = file.read(longest + 1), str(source).endswith(".ipynb")
+            data = file.read(longest + 1)
+        form = "notebook" if str(source).endswith(".ipynb") else "script"
     if len(data) > longest:
         raise ValueError(f"it has more than {longest:,} bytes")
-    return data, notebook
+    return data, form
 
 
 @functools.cache

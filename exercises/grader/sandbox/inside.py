@@ -3,7 +3,7 @@
 Messages come one a line, in JSON; bytes that belong to one follow its line. Until the first cell runs, what
 is sent back is our own word; after that it is the student's.
 
-    {"open": slug, "given": n, "file": m, "notebook": bool}   n bytes of given.py's code, m of the file
+    {"open": slug, "given": n, "file": m, "form": word}   n bytes of given.py's code, m of the file
                                          → {"titles": [first line of each cell]} or {"rejected": why}
     {"run": [["whole" or "part" or "no", number], ...]}       → {"done": number, "error": ...} for each
     {"calls": [...]}                                          → {"replies": [...]}, and the end
@@ -37,7 +37,8 @@ class Inside:
             request = json.loads(line)
             kind = next(iter(request))
             if kind == "open":
-                self.send(self.open(request))
+                for message in self.open(request):
+                    self.send(message)
             elif kind == "run":
                 for mode, number in request["run"]:
                     self.send({"done": number, "error": self.run(mode, number)})
@@ -46,18 +47,23 @@ class Inside:
                 return
 
     def open(self, request):
+        """What to send back; a notebook's cells, too, to be sent in alone from the second time on."""
         given, data = self.inbox.read(request["given"]), self.inbox.read(request["file"])
         try:
-            self.cells = cells_of(data, "the file", request["notebook"])
+            is_notebook = request["form"] == "notebook"
+            self.cells = (
+                json.loads(data) if request["form"] == "cells" else cells_of(data, "the file", is_notebook)
+            )
         except Unreadable as error:
-            return {"rejected": str(error)}
+            return [{"rejected": str(error)}]
         if not all(isinstance(cell, str) for cell in self.cells) or len(self.cells) > MOST_CELLS:
-            return {"rejected": f"the file is not a notebook of at most {MOST_CELLS} cells"}
+            return [{"rejected": f"the file is not a notebook of at most {MOST_CELLS} cells"}]
         self.namespace = Namespace()
         sys.modules["__main__"] = self.namespace.module
         module = load_given(request["open"], given)
         self.worker = Worker(self.namespace.names, module)
-        return {"titles": [title(cell) for cell in self.cells]}
+        titles = {"titles": [title(cell) for cell in self.cells]}
+        return [titles] if request["form"] == "cells" else [titles, self.cells]
 
     def run(self, mode, number):
         name, source = f"cell {number}", self.cells[number - 1]

@@ -18,7 +18,7 @@ class Limits:
     memory: int = 1 << 30  # what a worker may take beyond what is loaded already
     scratch: int = 64 << 20  # files that it writes
     reply: int = 8_000_000  # bytes of one answer
-    notebook: int = 20_000_000  # bytes of the file
+    notebook: int = 50_000_000  # bytes of the file, pictures and all
 
     def as_dict(self):
         return asdict(self)
