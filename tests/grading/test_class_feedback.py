@@ -17,7 +17,7 @@ from exercises.grader.classroom.submissions import Submission
 from exercises.grader.classroom.told import told
 from exercises.grader.judges import Verdict
 from exercises.grader.marking import Failure, Outcome, Result
-from tests.grading.class_support import UNIT, grade, mistake, plant, solution, use_plain_boxes
+from tests.grading.class_support import UNIT, grade, mistake, notebook, plant, solution, use_plain_boxes
 from tests.grading.class_support import feedback as page_of
 
 HOSTILE = (
@@ -262,6 +262,15 @@ def test_a_group_of_copies_is_listed_however_large():
 def test_code_that_is_none_has_numbers_all_the_same(cells):
     answer = of_cells(cells, {"starter": [], "notebook": "{"})
     assert isinstance(answer["numbers"], list) and answer["hints"] == []
+
+
+def test_nbgraders_metadata_earn_nothing_and_are_shown(tmp_path, monkeypatch):
+    use_plain_boxes(monkeypatch)
+    mark = {"grade": True, "grade_id": "another_exercise", "points": 1000, "solution": False, "locked": True}
+    plant(tmp_path, {"ada": notebook(["x = 1"], nbgrader=mark)})
+    scores, _ = grade(tmp_path)
+    assert scores["ada"].final == 0 and scores["ada"].most == 100
+    assert "another_exercise" in (tmp_path / "instructor/overview.html").read_text(encoding="utf-8")
 
 
 def test_nbgraders_metadata_are_hints():

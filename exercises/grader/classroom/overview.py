@@ -1,5 +1,6 @@
 """The instructor's page: how the class did, what it found hard, who wrote what someone else wrote."""
 
+import hashlib
 from collections import Counter
 
 from exercises.grader.classroom.files import table, write
@@ -28,8 +29,6 @@ def _names(scores, anonymous):
     """The students' names, or numbers in place of them that say nothing of the order of the alphabet."""
     if not anonymous:
         return lambda student: student
-    import hashlib
-
     students = {score.submission.student for score in scores}
     order = sorted(students, key=lambda student: hashlib.sha256(student.encode("utf-8", "replace")).digest())
     numbers = {student: f"student {i}" for i, student in enumerate(order, 1)}
@@ -77,9 +76,26 @@ def _unit(unit, scores, name):
             + "".join(lines)
             + "</table>"
         )
+    yield _hints(scores, name)
     missing = [name(score.submission.student) for score in scores if score.status == "missing"]
     if missing:
         yield f"<p>Missing: {text(', '.join(missing), 20000)}.</p>"
+
+
+def _hints(scores, name):
+    """Notebooks that nbgrader's marks say are of something else: never used for a score."""
+    lines = []
+    for score in scores:
+        result = score.result or {}
+        names = {check["name"] for check in result.get("checks", ())}
+        odd = [hint for hint in (result.get("fingerprint") or {}).get("hints", ()) if hint not in names]
+        if odd:
+            lines.append(f"<li>{text(name(score.submission.student))}: {text(', '.join(odd[:5]), 300)}")
+    if not lines:
+        return ""
+    return (
+        f"<p>Notebooks with nbgrader's marks of checks that this unit has not:</p><ul>{''.join(lines)}</ul>"
+    )
 
 
 def _distribution(points, most):

@@ -7,6 +7,8 @@ import exercises
 from exercises.grader import sandbox
 from exercises.grader.cells import read_cells
 
+LARGEST_FOR_HINTS = 1_000_000  # bytes of a notebook: a larger one is sent to the sandbox once, not twice
+
 
 def probe():
     """(kind of isolation that holds here, or "none"; why not, in words), by the canary."""
@@ -29,7 +31,8 @@ def takes_the_innocent(unit, unsafe):
 
 def fingerprint(box, notebook, starter):
     """Numbers and hints of the loaded notebook, checked: they come from where student material was."""
-    extra = {"starter": starter, "notebook": notebook.decode("utf-8", "replace")}
+    text = notebook.decode("utf-8", "replace") if len(notebook) <= LARGEST_FOR_HINTS else ""
+    extra = {"starter": starter, "notebook": text}
     answer = box.task("fingerprint", extra)
     if not isinstance(answer, dict):
         return {"numbers": [], "hints": []}
