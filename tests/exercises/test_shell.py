@@ -224,3 +224,14 @@ def test_check_in_a_namespace(capsys):
     assert "body_rate" not in globals()
     check("body_rate")
     assert "body_rate is not defined" in capsys.readouterr().out
+
+
+def test_what_a_hanging_cell_defines_is_kept(tmp_path):
+    cells = [
+        *read_cells(SOLUTION),
+        "half = 0.5\ndef twice(x): return 2 * x\nwhile True: pass",
+        "assert twice(half) == 1",
+    ]
+    results, troubles = shell.check_cells(UNIT.slug, cells, tmp_path, limit=4.0, show=lambda text: None)
+    assert all(result.passed for result in results)
+    assert [number for number, _ in troubles] == [len(cells) - 1] and "definitions" in troubles[0][1]
