@@ -215,18 +215,18 @@ def test_bombs(tmp_path):
         tmp_path,
         [
             ("a_1_2_02_x.ipynb", bytes(9_000_000)),
-            ("b_2_2_02_x.ipynb", bytes(30_000_000)),
+            ("b_2_2_02_x.ipynb", bytes(60_000_000)),
             ("c_3_2_02_x.ipynb", BOOK),
         ],
     )
     assert written == 1 and len(notes) == 2
-    lying = archive(tmp_path / "lying.zip", [("a_1_2_02_x.ipynb", bytes(30_000_000))]).read_bytes()
-    size = (30_000_000).to_bytes(4, "little")
+    lying = archive(tmp_path / "lying.zip", [("a_1_2_02_x.ipynb", bytes(60_000_000))]).read_bytes()
+    size = (60_000_000).to_bytes(4, "little")
     assert lying.count(size) == 2
     (tmp_path / "lying.zip").write_bytes(lying.replace(size, (5000).to_bytes(4, "little")))
     tracemalloc.reset_peak()
     written, notes = collect.collect(tmp_path / "lying.zip", tmp_path / "class", None)
-    assert written == 0 and tracemalloc.get_traced_memory()[1] < 35_000_000
+    assert written == 0 and tracemalloc.get_traced_memory()[1] < 3 * submissions.LARGEST_NOTEBOOK
     tracemalloc.stop()
 
 

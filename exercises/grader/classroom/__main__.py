@@ -11,6 +11,9 @@ from pathlib import Path
 import exercises
 from exercises.grader.check import SELF_STUDY_SEED
 from exercises.grader.classroom.files import Trouble, line
+from exercises.grader.classroom.local import default_jobs
+
+BUILD = Path(exercises.__file__).resolve().parents[1] / "build"
 
 
 def main(arguments=None):
@@ -112,77 +115,59 @@ def _jobs(text):
 
 
 def _parser():
-    from exercises.grader.classroom.local import default_jobs
-
     parser = argparse.ArgumentParser(prog="course.py", description=__doc__.split("\n")[0])
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
     def command(function, summary, epilog=None):
-        added = commands.add_parser(
-            function.__name__, help=summary, epilog=epilog, description=summary[0].upper() + summary[1:] + "."
-        )
+        told = summary[0].upper() + summary[1:] + "."
+        added = commands.add_parser(function.__name__, help=summary, epilog=epilog, description=told)
         added.set_defaults(command=function)
-        added.add_argument(
-            "--exercises", type=Path, metavar="DIR", help="your own units, laid out as exercises/ is"
-        )
+        _path(added, "--exercises", "DIR", "your own units, laid out as exercises/ is")
         return added
 
-    added = command(
+    _grade_options(command(
         grade,
         "grade FOLDER/submitted/<student>/<unit>/*.ipynb: scores.csv, feedback, an overview",
         "Beside submitted/ you may put roster.csv, deadlines.csv, manual.csv: see lectures/instructors.md. "
         "The same command after an interruption goes on where it stopped.",
-    )
-    added.add_argument("folder", type=Path, metavar="FOLDER")
-    added.add_argument("--out", type=Path, metavar="DIR", help="where the results go (default: FOLDER)")
-    added.add_argument("--unit", action="append", default=[], help="grade only this unit; may be repeated")
-    added.add_argument(
-        "--seed",
-        type=_seed,
-        metavar="N",
-        help="draw the hidden cases from N; without it from 128 "
-        "secret bits, drawn on first use and kept with the results. "
-        f"{SELF_STUDY_SEED} is the students' own, of notebook and shell",
-    )
-    added.add_argument(
-        "--jobs",
-        type=_jobs,
-        default=default_jobs(),
-        metavar="N",
-        help="submissions graded at a time on this machine (default: %(default)s)",
-    )
-    added.add_argument(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="send the submissions to a Dask cluster: tls://HOST:PORT, or tcp://127.0.0.1:PORT",
-    )
-    added.add_argument("--regrade", action="store_true", help="grade all anew, and list old → new")
-    added.add_argument("--allow-lower", action="store_true", help="let --regrade lower a score")
-    added.add_argument("--anonymous", action="store_true", help="numbers in place of names in the overview")
-    added.add_argument(
-        "--canvas", type=Path, metavar="CSV", help="a gradebook exported from Canvas, to be filled"
-    )
-    added.add_argument(
-        "--moodle", type=Path, metavar="CSV", help="a gradebook exported from Moodle, to be filled"
-    )
-    added.add_argument(
-        "--unsafe-no-sandbox",
-        action="store_true",
-        help="grade even where no sandbox works; stamped into every result",
-    )
+    ))  # fmt: skip
     added = command(collect, "unpack a download from Canvas or Moodle into submitted/<student>/<unit>/")
-    added.add_argument("zip", type=Path, metavar="ZIP")
-    added.add_argument(
-        "--out",
-        type=Path,
-        default=Path("."),
-        metavar="FOLDER",
-        help="the class's folder, with roster.csv if there is one (default: here)",
-    )
+    _path(added, "zip", "ZIP")
+    _path(added, "--out", "FOLDER", "the class's folder, with its roster.csv (default: here)", Path("."))
     added.add_argument("--unit", help="which unit it is, if the files' names don't tell")
     added = command(release, "make the students' copy: no solutions, oracles, generators or seeds")
-    added.add_argument("--out", type=Path, default=Path("build") / "release", metavar="DIR")
+    _path(added, "--out", "DIR", "default: build/release in the course's folder", BUILD / "release")
     return parser
+
+
+def _path(parser, name, metavar, told=None, default=None):
+    parser.add_argument(name, type=Path, metavar=metavar, help=told, default=default)
+
+
+def _grade_options(parser):
+    jobs = default_jobs()
+    cluster = "send the submissions to a Dask cluster: tls://HOST:PORT, or tcp://127.0.0.1:PORT"
+    seed = (
+        "draw the hidden cases from N; without it from 128 secret bits, drawn on first use and kept with the "
+        f"results. {SELF_STUDY_SEED} is the students' own, of notebook and shell"
+    )
+    _path(parser, "folder", "FOLDER")
+    _path(parser, "--out", "DIR", "where the results go (default: FOLDER)")
+    parser.add_argument("--unit", action="append", default=[], help="grade only this unit; may be repeated")
+    parser.add_argument("--seed", type=_seed, metavar="N", help=seed)
+    parser.add_argument(
+        "--jobs", type=_jobs, default=jobs, metavar="N", help=f"submissions at a time (default: {jobs})"
+    )
+    parser.add_argument("--scheduler", metavar="ADDRESS", help=cluster)
+    for name, told in (
+        ("--regrade", "grade all anew, and list old → new"),
+        ("--allow-lower", "let --regrade lower a score"),
+        ("--anonymous", "numbers in place of names in the overview"),
+        ("--unsafe-no-sandbox", "grade even where no sandbox works; stamped into every result"),
+    ):
+        parser.add_argument(name, action="store_true", help=told)
+    _path(parser, "--canvas", "CSV", "a gradebook exported from Canvas, to be filled")
+    _path(parser, "--moodle", "CSV", "a gradebook exported from Moodle, to be filled")
 
 
 if __name__ == "__main__":

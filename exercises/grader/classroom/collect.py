@@ -19,7 +19,8 @@ MOST_BYTES = (
     50_000_000,
     30,
 )  # all notebooks together, unpacked: this, and so many times the archive's own size
-MOST_PACKED = 200  # times smaller than what it holds: text is packed 10 times smaller, a bomb 1000 times
+MOST_PACKED = 200  # times smaller than what it holds, if that is large: text 10 times, a bomb 1000 times
+LARGE = 5_000_000
 CANVAS = re.compile(
     r"(?P<name>[^_]+)_(?P<late>LATE_)?(?P<user>\d+)_(?P<upload>\d+)_(?P<file>.+)", re.IGNORECASE
 )
@@ -173,7 +174,7 @@ def unpacked(archive, member, most):
         raise Trouble("it is encrypted")
     if member.file_size > most:
         raise Trouble(f"it has {member.file_size:,} bytes; at most {most:,} are taken")
-    if member.file_size > 100_000 and member.file_size > MOST_PACKED * max(member.compress_size, 1):
+    if member.file_size > LARGE and member.file_size > MOST_PACKED * max(member.compress_size, 1):
         raise Trouble("it is packed too tightly to be a notebook")
     with archive.open(member) as file:
         data = file.read(most + 1)
