@@ -14,14 +14,14 @@ import exercises
 from exercises.grader.classroom import cases, job
 from exercises.grader.marking import mark
 from exercises.grader.shell import check_cells
-from tests.grading.class_support import UNIT, PlainBox, mistake, notebook, plant, solution
+from tests.grading.class_support import UNIT, PlainBox, feedback, mistake, notebook, plant, solution
 
 ROOT = exercises.FOLDER.parent
 MOST_OVERHEAD = 3.0  # CPU of a submission beyond its own code, in starts of a Python with NumPy
 
 
-def command(*arguments, **options):
-    environment = dict(os.environ, COURSE_PYTHON=sys.executable)
+def command(*arguments, environment=(), **options):
+    environment = dict(os.environ, COURSE_PYTHON=sys.executable, **dict(environment))
     return subprocess.Popen(
         [sys.executable, str(ROOT / "course.py"), *map(str, arguments)],
         env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8", **options,
@@ -66,6 +66,20 @@ def test_one_command_grades_a_class(tmp_path):
     before = (tmp_path / "scores.csv").read_bytes()
     code, out, _ = run("grade", tmp_path)
     assert code == 0 and "to grade" not in out and (tmp_path / "scores.csv").read_bytes() == before
+
+
+def test_without_a_sandbox_nothing_is_graded_unless_told(tmp_path):
+    plant(tmp_path, {"ada": ["x = 1"]})
+    without = {"GRADER_WITHOUT": "bubblewrap,landlock"}
+    process = command("grade", tmp_path, environment=without)
+    _, error = process.communicate(timeout=120)
+    assert process.returncode == 2 and "Nothing was graded" in error and "no sandbox works here" in error
+    assert not (tmp_path / "scores.csv").exists()
+    code, out, error = run("grade", tmp_path, "--unsafe-no-sandbox", "--jobs", "1", environment=without)
+    assert code == 0 and "1 unsandboxed" in out, error
+    assert ",unsandboxed," in (tmp_path / "scores.csv").read_text()
+    assert "NO SANDBOX" in (tmp_path / "instructor/overview.html").read_text(encoding="utf-8")
+    assert "without a sandbox" in feedback(tmp_path, "ada")
 
 
 @pytest.mark.parametrize("jobs", [1, 2])

@@ -11,7 +11,7 @@ IN_WORDS = {
     "rejected": "The file could not be taken",
     "timeout": "Your notebook ran out of time",
     "crashed": "Python ended while it answered a check",
-    "unsandboxed": "",
+    "unsandboxed": "Graded without a sandbox",
     "missing": "Nothing was handed in",
     "grader_error": "The grader itself failed: this is no fault of yours, and there is no grade yet",
 }

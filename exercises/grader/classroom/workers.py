@@ -13,7 +13,7 @@ LARGEST_FOR_HINTS = 1_000_000  # bytes of a notebook: a larger one is sent to th
 def probe():
     """(kind of isolation that holds here, or "none"; why not, in words), by the canary."""
     found = sandbox.probe()
-    return found.kind, "; ".join(f"{kind}: {why}" for kind, why in found.reasons.items())
+    return found.name or "none", "" if found.kind else found.sentence()
 
 
 def open_box(unit, unsafe):
