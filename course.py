@@ -421,6 +421,9 @@ def lab(options, _):
     if newer:
         print(f"There are new versions of {len(newer)} files in work/; to get them: {ME} update")
     settle_jupyter()
+    compiled = run(python, ["-m", "reference"])     # compiles the loops, where that was not done yet
+    if compiled < 0 or compiled > 127:
+        return compiled                             # interrupted: what was asked for is to stop
     first = next((name for name in originals() if name.startswith("notebooks/")), None)
     command = ["-m", "jupyterlab", str(WORK), "--ServerApp.log_level=ERROR", "--LabApp.log_level=ERROR",
                "--LabApp.default_url=/lab" + (f"/tree/{first}" if first else ""),
@@ -491,14 +494,15 @@ def own_copy(unit):
 
 
 def unit_and_file(target, unit=None):
-    """What to check. A unit means the copy in work/. A file's name or folder tells its unit, or --unit."""
+    """What to check. A unit means the copy in work/. A file's name or a folder tells its unit, or --unit."""
     file = Path(target).resolve()
     if file.is_file():
-        numbers = re.findall(r"^\d+(?=_)", file.name) + re.findall(r"^\d+(?=_)", file.parent.name)
-        if not unit and not numbers:
-            choices = ", ".join(units("exercises/"))
-            raise Trouble(f"Which unit is {target} of? Add --unit and one of {choices}.")
-        return unit_named(unit or numbers[0], "exercises/"), file
+        choices = units("exercises/")
+        numbers = {choice.split("_")[0] for choice in choices}
+        told = [word.split("_")[0] for word in reversed(file.parts) if word.split("_")[0] in numbers]
+        if not unit and not told:
+            raise Trouble(f"Which unit is {target} of? Add --unit and one of {', '.join(choices)}.")
+        return unit_named(unit or told[0], "exercises/"), file
     unit = unit_named(target, "exercises/")
     if not own_copy(unit).exists():
         raise Trouble(f"Your copy of {unit} is not in work/ yet: {ME} lab makes it.")
@@ -531,7 +535,7 @@ def reset(options, _):
     unit, record = unit_named(options.unit), read_record()
     for name in originals():
         file = WORK / name
-        if file.stem == unit:
+        if file.stem == unit and file.suffix == ".ipynb":
             if file.exists() and file.read_bytes() != (ROOT / name).read_bytes():
                 aside = write_beside(file, "old-" + now(), file.read_bytes())
                 print(f"Your old copy is now {aside.relative_to(ROOT).as_posix()}")
@@ -637,6 +641,8 @@ def guarded_main():
         return main()
     except Trouble as trouble:
         print(trouble, file=sys.stderr)
+    except BrokenPipeError:         # as after `| head`: nobody reads on
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
         if remedy(str(error)) is None:
             raise

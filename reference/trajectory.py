@@ -69,13 +69,12 @@ class ContactHistory:
 
 @dataclass(frozen=True)
 class Trajectory:
-    """The motion of n bodies at T times: all bodies, the static ones too, in the order added; world frame, SI
-    units.
+    """The motion of all n bodies at T times, static ones too, in the order added; world frame, SI units.
 
-    time (T,); position (T, n, d); orientation (T, n, 4) or (T, n) in the plane; velocity (T, n, d);
-    angular_velocity (T, n, 3) or (T, n); contacts[k], see ``Contacts``; status: "ok", or "diverged", after
-    which there are no more records; reason: a sentence; residual, iterations (T,): of the step's own
-    equation, the worst since the record before; settings: what was chosen, by whom.
+    time (T,), from 0; start_time: what the clock showed then, s; position (T, n, d); orientation (T, n, 4) or
+    (T, n) in the plane; velocity (T, n, d); angular_velocity (T, n, 3) or (T, n); contacts[k]: ``Contacts``;
+    status: "ok", or "diverged", after which there are no more records; reason: a sentence; residual,
+    iterations (T,): of the step's own equation, the worst since the record before; settings: what was chosen.
     """
 
     bodies: Bodies = field(repr=False)
@@ -90,11 +89,12 @@ class Trajectory:
     residual: np.ndarray = field(default=None, repr=False)
     iterations: np.ndarray = field(default=None, repr=False)
     settings: dict = field(default_factory=dict)
+    start_time: float = 0.0
 
     def state(self, k=-1):
         """The ``BodyState`` of record k, by default the last: serves as ``start=`` of another run."""
         arrays = self.position, self.orientation, self.velocity, self.angular_velocity
-        return BodyState(float(self.time[k]), *(array[k].copy() for array in arrays))
+        return BodyState(self.start_time + float(self.time[k]), *(array[k].copy() for array in arrays))
 
     def energy(self):
         """Kinetic energy and the potential energy of gravity, springs and gravitation, J: (T,)."""

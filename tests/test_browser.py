@@ -75,7 +75,7 @@ def address(course, tmp_path_factory):
 
 
 def wait_for_address(server, log):
-    deadline = time.monotonic() + 120
+    deadline = time.monotonic() + 2 * PATIENCE      # the loops are compiled first
     while time.monotonic() < deadline and server.poll() is None:
         found = re.search(r"http://127\.0\.0\.1:\d+/\S+", log.read_text())
         if found:

@@ -446,6 +446,9 @@ def test_check_any_file(folder, tmp_path, course):
     (tmp_path / "02_mine.ipynb").write_text("@@@@@")
     assert ready(folder, "check", tmp_path / "02_mine.ipynb").returncode == 0
     assert "not checked yet" in ask(folder, "check").stdout  # a file from elsewhere does not count
+    (tmp_path / "02_second" / "deep").mkdir(parents=True)
+    (tmp_path / "02_second" / "deep" / "mine.py").write_text("@@@@@")
+    assert ready(folder, "check", tmp_path / "02_second" / "deep" / "mine.py").returncode == 0
     (tmp_path / "mine.py").write_text("@@@@@")
     told = ready(folder, "check", tmp_path / "mine.py")
     assert told.returncode == 2 and "--unit" in told.stderr
@@ -453,14 +456,14 @@ def test_check_any_file(folder, tmp_path, course):
 
 
 def called(course, monkeypatch, *arguments):
-    """What a command would run, and in which environment."""
+    """What a command would run last, and in which environment."""
     calls = []
     monkeypatch.setenv("COURSE_PYTHON", sys.executable)
     monkeypatch.setattr(
         course, "run", lambda python, command, **changes: calls.append((command, changes)) or 0
     )
     assert course.main([*arguments]) == 0
-    return calls[0]
+    return calls[-1]
 
 
 def test_arguments_reach_pytest_and_bench_in_order(course, monkeypatch):
@@ -571,7 +574,7 @@ def test_a_fresh_clone_sets_itself_up_and_serves(tmp_path):
             stdin=subprocess.DEVNULL,
         )
     try:
-        deadline = time.monotonic() + 120
+        deadline = time.monotonic() + 600
         while not (found := re.search(r"http://127\.0\.0\.1:\d+/\S+", log.read_text())):
             assert time.monotonic() < deadline and server.poll() is None, log.read_text()
             time.sleep(0.2)

@@ -20,7 +20,8 @@ def simulate(scene, duration, dt, *, start=None, **settings):
 
     settings: simulator, integrator, substeps, record_every, … as in ``Settings``. What is not said is chosen
     by what the scene needs; the result's ``settings`` tells what was. start: a state to go on from,
-    ``sim.state`` or ``run.state()``, its time included; None: as the scene says, at t = 0.
+    ``sim.state`` or ``run.state()``; the clock that forces see goes on from its time, while the result's
+    ``time`` counts from 0 again. None: as the scene says, at t = 0.
 
     Raises ValueError or TypeError for bad input, naming the argument; Unsupported where something can't be
     expressed. A run whose state stops being finite returns what it has, with status "diverged" and the time.
@@ -73,7 +74,7 @@ class Simulation:
         self._advance(count_steps(duration, self.dt))
 
     def run(self, duration):
-        """Move on by a whole number of dt; returns the ``Trajectory`` from now to now + duration."""
+        """Move on by a whole number of dt; returns the ``Trajectory``, whose time counts from now."""
         steps, start = count_steps(duration, self.dt), self.time
         done = np.append(np.arange(0, steps, self.record_every), steps)  # steps done at each record
         record, solves = np.empty((len(done), self._family.state.y.size)), np.zeros((len(done), 2))
@@ -83,7 +84,7 @@ class Simulation:
         self._tell_unsolved(solves[:kept])
         return Trajectory(
             self.bodies,
-            start + done[:kept] * duration / steps,
+            done[:kept] * duration / steps,
             *self.bodies.unpack(record[:kept]),
             contacts=ContactHistory.empty(kept, self.bodies.dimension),
             status=self.status,
@@ -91,6 +92,7 @@ class Simulation:
             residual=solves[:kept, 1].copy(),
             iterations=solves[:kept, 0].astype(int),
             settings=dict(self.settings),
+            start_time=start,
         )
 
     def _advance(self, steps, record=None, solves=None):

@@ -83,7 +83,7 @@ def test_going_on_from_a_state_is_the_same_as_not_stopping():
     whole = simulate(scene, 1, 0.01, integrator="rk4")
     half = simulate(scene, 0.5, 0.01, integrator="rk4")
     rest = simulate(scene, 0.5, 0.01, integrator="rk4", start=half.state())
-    assert rest.time[0] == 0.5 and rest.time[-1] == 1
+    assert rest.time[0] == 0 and rest.time[-1] == 0.5 and rest.state().time == 1
     assert np.abs(rest.position[-1] - whole.position[-1]).max() < 1e-13
 
 

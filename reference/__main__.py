@@ -1,0 +1,33 @@
+"""``python -m reference``: compile all loops now, so that no run waits for it. ``course.py lab`` does it.
+
+It takes a minute or two after set-up or after a change of the sources, and no time where it was done before.
+
+Slides S4, S9; lectures/02_equation_of_motion.md.
+"""
+
+from tqdm import tqdm
+
+from .compiled import COMPILED, cache_directory
+from .integrators import INTEGRATORS
+from .scene import Scene
+from .shapes import Point
+from .simulators import Simulation
+
+
+def main():
+    """Run one step with each integrator; a file in the cache's folder remembers that it was done."""
+    folder = cache_directory() if COMPILED else None
+    if folder is None or (folder / "complete").exists():
+        return
+    scene = Scene()
+    scene.add(Point())
+    for name in tqdm(INTEGRATORS, desc="compiling the reference, once", unit="integrator"):
+        Simulation(scene, 0.1, integrator=name).step()
+    (folder / "complete").touch()
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except KeyboardInterrupt:
+        raise SystemExit(130) from None
