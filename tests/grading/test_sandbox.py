@@ -1,6 +1,7 @@
 """The sandbox itself: which kind works, what it refuses, its limits, and that nothing of it stays behind."""
 
 import contextlib
+import itertools
 import json
 import os
 import shutil
@@ -351,8 +352,8 @@ def test_a_grader_that_is_killed_takes_all_with_it():
 
 
 def test_the_filter_fits_the_kernels_machine():
-    for machine in syscalls.MACHINES:
-        lines = seccomp.program(machine, 1234)
+    for machine, flat in itertools.product(syscalls.MACHINES, (False, True)):
+        lines = seccomp.program(machine, 1234, flat)
         assert len(lines) < 4096 and lines[-1] == seccomp.refuse()
         for place, (code, yes, no, _) in enumerate(lines):
             assert code in (0x20, 0x15, 0x35, 0x45, 0x06) and max(yes, no) < 256

@@ -8,7 +8,7 @@ from pathlib import Path
 from exercises.grader.sandbox.survey import DEVICES, INTERPRETER, OURS, ROOT, SYSTEM
 
 COURSE = "/course"
-SCRATCH = "/home/student/work"  # as deep as a real one, for cells that look for folders above
+SCRATCH = "/student/course/work"  # as deep as a real one, for cells that look for folders above
 # The parent's, for making a worker's scratch folder and for taking another user; a worker drops them.
 CAPABILITIES = ("SYS_ADMIN", "SETUID", "SETGID", "SETPCAP", "KILL", "DAC_READ_SEARCH")
 

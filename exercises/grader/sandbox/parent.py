@@ -65,9 +65,10 @@ class Parent:
             from exercises.grader.sandbox import kernel, seccomp
 
             kernel.drop_bounds()  # no capability comes back to a worker
-            seccomp.prepare()
+            seccomp.prepare(not machine["private_scratch"])
         preload.settle()
         self.machine = machine
+        self.wipe_scratch()  # of what libraries wrote while they were loaded
         return {"ready": True}
 
     def spawn(self, limits, files):
@@ -128,8 +129,6 @@ class Parent:
                 os.kill(pid, signal.SIGKILL)
 
     def wipe_scratch(self):
-        if self.machine["private_scratch"]:
-            return
         for entry in os.scandir(self.machine["scratch"]):
             if entry.is_file(follow_symlinks=False):
                 os.unlink(entry.path)

@@ -11,7 +11,15 @@ import os
 import struct
 
 from exercises.grader.sandbox import kernel
-from exercises.grader.sandbox.syscalls import ALLOWED, GUARDED, MACHINES, PRETENDED, UNKNOWN, numbers
+from exercises.grader.sandbox.syscalls import (
+    ALLOWED,
+    GUARDED,
+    MACHINES,
+    PRETENDED,
+    PRETENDED_IF_FLAT,
+    UNKNOWN,
+    numbers,
+)
 
 LOAD, JUMP_EQUAL, JUMP_ABOVE, JUMP_ANY_BIT, RETURN = 0x20, 0x15, 0x35, 0x45, 0x06
 ALLOW, KILL, ERROR = 0x7FFF0000, 0x80000000, 0x00050000
@@ -45,7 +53,7 @@ IOCTL = (
     0x5413,
 )  # TCGETS, FIONREAD, FIONBIO, FIONCLEX, FIOCLEX, TIOCGWINSZ
 PRCTL = (3, 15, 16, 21, 39, 0x53564D41)  # read dumpable, thread's name, read seccomp, naming of memory
-O_TRUNC = 0o1000
+O_TRUNC, O_TMPFILE = 0o1000, 0o20000000
 STREAM = (
     1,
     0x801,
@@ -88,11 +96,13 @@ def thread_only():
     ]
 
 
-def no_emptying(position):
+def no_emptying(position, flat):
     """Allow to open, but not to empty a file while opening it for reading: an older Landlock lets that
-    through."""
+    through. In a flat scratch folder no file without a name: none would see how large it is."""
+    nameless = [(JUMP_ANY_BIT, 0, 1, O_TMPFILE), refuse(errno.EOPNOTSUPP)] if flat else []
     return [
         argument(position),
+        *nameless,
         (JUMP_ANY_BIT, 0, 2, O_TRUNC),
         (JUMP_ANY_BIT, 1, 0, os.O_WRONLY | os.O_RDWR),
         refuse(),
@@ -100,8 +110,9 @@ def no_emptying(position):
     ]
 
 
-def program(machine, process):
-    """The filter's instructions for a process with this id."""
+def program(machine, process, flat=False):
+    """The filter's instructions for a process with this id. `flat`: its scratch folder is one on disk, where
+    nothing is removed before the end, so that what it holds can be seen."""
     _, architecture = MACHINES[machine]
     guarded, unknown = numbers(GUARDED, machine), numbers(UNKNOWN, machine)
     lines = [
@@ -112,7 +123,10 @@ def program(machine, process):
     ]
     if machine == "x86_64":
         lines += [(JUMP_ABOVE, 0, 1, X32), statement(RETURN, KILL)]
-    hot = {"open": no_emptying(1), "openat": no_emptying(2)}
+    hot = {"open": no_emptying(1, flat), "openat": no_emptying(2, flat)}
+    pretended = numbers({**PRETENDED, **(PRETENDED_IF_FLAT if flat else {})}, machine)
+    for number in pretended.values():
+        lines += only_if(number, [refuse(0)])
     for name, test in hot.items():
         if name in guarded:
             lines += only_if(guarded.pop(name), test)
@@ -120,8 +134,6 @@ def program(machine, process):
         lines += only_if(number, [statement(RETURN, ALLOW)])
     for number in unknown.values():
         lines += only_if(number, [refuse(errno.ENOSYS)])
-    for number in numbers(PRETENDED, machine).values():
-        lines += only_if(number, [refuse(0)])
     tests = {
         "clone": thread_only(),
         **dict.fromkeys(("kill", "tgkill", "rt_sigqueueinfo", "rt_tgsigqueueinfo"), one_of(0, (process,))),
@@ -145,21 +157,21 @@ def supported():
 
 
 @functools.cache
-def _code():
+def _code(flat):
     """The filter's bytes, made once for all workers, and the places where the process's id is to be put."""
-    lines = program(kernel.machine(), PROCESS)
+    lines = program(kernel.machine(), PROCESS, flat)
     places = [8 * i + 4 for i, line in enumerate(lines) if line[3] == PROCESS]
     return b"".join(struct.pack("HBBI", *line) for line in lines), len(lines), places
 
 
-def prepare():
+def prepare(flat):
     """Done before the first fork, the costly part is done for all."""
-    _code()
+    _code(flat)
 
 
-def confine(process):
+def confine(process, flat):
     """From now on, for good, this process (whose id is `process`) can make the listed calls only."""
-    code, length, places = _code()
+    code, length, places = _code(flat)
     buffer = ctypes.create_string_buffer(code, len(code))
     for place in places:
         struct.pack_into("I", buffer, place, process)

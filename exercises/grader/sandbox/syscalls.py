@@ -60,6 +60,8 @@ PRETENDED = {
     "utimes": (235, None),
 }  # fmt: skip
 
+PRETENDED_IF_FLAT = {"unlink": (87, None), "unlinkat": (263, 35)}
+
 # Answered as a kernel answers that does not know them yet: callers then take the older call, which is
 # guarded.
 UNKNOWN = {"clone3": (435, 435), "openat2": (437, 437), "fchmodat2": (452, 452)}
