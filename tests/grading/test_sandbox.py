@@ -212,7 +212,7 @@ def test_an_ordinary_user_with_the_interpreter_at_home(tmp_path_factory):
         (b"\x80\x04\x95cos\nsystem\n", "cannot be read"),
         (b"9" * 1_000_000, "not a notebook"),
         (json.dumps({"cells": [{"cell_type": "code", "source": ""}] * 6000}).encode(), "at most"),
-        (b" " * 20_000_001, "more than 20,000,000 bytes"),
+        (b" " * 50_000_001, "more than 50,000,000 bytes"),
     ],
 )
 def test_what_is_no_notebook_is_rejected(data, told):
