@@ -86,6 +86,7 @@ class _Inert:
 
 
 INERT_THING = _Inert()
+shell = INERT_THING  # what get_ipython() gives; cells.py puts its own here
 
 
 class _Module(types.ModuleType):
@@ -93,15 +94,22 @@ class _Module(types.ModuleType):
         if name.startswith("__"):
             raise AttributeError(name)
         if self.__name__.split(".")[0] in INERT:
-            known = {"get_ipython": lambda: sys.modules["__main__"].get_ipython(), "trange": range}
+            known = {"get_ipython": lambda: shell, "trange": range}
             return known.get(name, INERT_THING)
         return _Use(f"{self.__name__}.{name}")
 
 
 class _Finder(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    def __init__(self, strict):
+        self.strict = strict
+
     def find_spec(self, name, path=None, target=None):
         top = name.split(".")[0]
-        if top in PRESENT or top not in (*HIDDEN, *INERT) and _asked_by_a_library():
+        if top in PRESENT:
+            return None
+        if top not in (*HIDDEN, *INERT) and _asked_by_a_library():
+            if self.strict:  # it may be seen there, and yet not be read
+                raise ModuleNotFoundError(f"No module named {name!r}", name=name)
             return None
         return importlib.machinery.ModuleSpec(name, self, is_package=True)
 
@@ -121,8 +129,8 @@ def _asked_by_a_library():
     return frame is not None and str(frame.f_globals.get("__name__")).split(".")[0] in PRESENT
 
 
-def hide():
-    """From now on, in this process, all other packages are absent."""
+def hide(strict=False):
+    """From now on, in this process, all other packages are absent; if `strict`, for libraries too."""
     for name in [name for name in sys.modules if name.split(".")[0] in HIDDEN]:
         del sys.modules[name]
-    sys.meta_path.insert(0, _Finder())
+    sys.meta_path.insert(0, _Finder(strict))

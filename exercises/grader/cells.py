@@ -21,6 +21,9 @@ from exercises.grader.worker import describe
 RUN_THEIR_CELL = {"time", "timeit", "capture", "prun", "memit", "python", "python3"}
 
 
+OPTIONS = re.compile(r"^(?:-[a-z]+\s*\d*\s+)+")  # %timeit -n 10 -r3
+
+
 class Unreadable(ValueError):
     """The file is no notebook and no script."""
 
@@ -55,7 +58,8 @@ class Namespace:
     def __init__(self):
         self.module = types.ModuleType("__main__")
         self.names = self.module.__dict__
-        self.names.update(display=lambda *things, **options: None, get_ipython=lambda: Shell(self))
+        self.names.update(display=lambda *things, **options: None, get_ipython=lambda: absent.shell)
+        absent.shell = Shell(self)
 
     def run(self, source, name="cell"):
         """Runs one cell. None, or the exception as `describe` tells it."""
@@ -127,10 +131,11 @@ class Shell:
         self.namespace, self.user_ns = namespace, namespace.names
 
     def run_line_magic(self, magic, line, *rest):
-        if magic not in RUN_THEIR_CELL or not line.strip():
+        line = OPTIONS.sub("", line.strip())
+        if magic not in RUN_THEIR_CELL or not line:
             return None
         try:
-            code = compile(line.strip(), "magic", "eval")
+            code = compile(line, "magic", "eval")
         except SyntaxError:  # no expression: `%time x = 1`
             code = compile(_as_python(line), "magic", "exec")
         result = eval(code, self.user_ns)

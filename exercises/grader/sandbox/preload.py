@@ -33,7 +33,7 @@ def load():
     ipython.find()
     _quiet_backend()
     _interactive_names()
-    absent.hide()
+    absent.hide(strict=True)
     import exercises
 
     exercises.silent = True
