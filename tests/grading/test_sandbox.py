@@ -20,6 +20,7 @@ from exercises.grader.sandbox import (
     Sandbox,
     clean,
     close,
+    folder,
     isolation,
     kernel,
     nursery,
@@ -380,3 +381,16 @@ def test_the_survey_holds_no_answers():
 def test_text_for_terminals_and_pages():
     assert clean("a\x1b[31mb\x1b]0;title\x07c\x00\u202e\ud800d\ne") == "ab0;titlecd\ne"
     assert len(clean("x" * 10_000)) == 500
+
+
+def test_folders_of_killed_graders_are_swept(tmp_path, monkeypatch):
+    monkeypatch.setattr(folder.tempfile, "tempdir", str(tmp_path))
+    left, lock = folder.make()
+    lock.close()  # as the kernel does when a grader is killed
+    used, held = folder.make()
+    assert left.exists() and used.is_dir()  # too new to be judged
+    folder.sweep(age=0.0)
+    assert used.is_dir() and not left.exists()
+    held.close()
+    folder.sweep(age=0.0)
+    assert not used.exists()

@@ -4,6 +4,7 @@
                         workers     one worker of it, seen from outside
                         nursery     the one parent process of a grader, started and talked to
                         wire        pipes with limits on time and length
+                        folder      its folder among the temporary ones
                         files, words   a student's file and words, handled with tongs
                         survey      which files the tools need
                         isolation   which kind of isolation works here, found by trying

@@ -8,10 +8,10 @@ import os
 import shutil
 import socket
 import subprocess
-import tempfile
+from multiprocessing.util import Finalize
 from pathlib import Path
 
-from exercises.grader.sandbox import bubblewrap, limits
+from exercises.grader.sandbox import bubblewrap, folder, limits
 from exercises.grader.sandbox.survey import ROOT, command, environment, survey
 
 START = (
@@ -36,8 +36,7 @@ class Nursery:
 
     def __init__(self, kind):
         self.kind = kind
-        self.folder = Path(tempfile.mkdtemp(prefix="grader-"))
-        self.folder.chmod(0o755)
+        self.folder, self.lock = folder.make()
         self.complaints = open(self.folder.with_suffix(".err"), "w+b")  # noqa: SIM115 (closed with the nursery)
         os.unlink(self.complaints.name)
         try:
@@ -113,6 +112,7 @@ class Nursery:
             self.process.kill()
             self.process.wait()
         self.complaints.close()
+        self.lock.close()
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
@@ -157,9 +157,12 @@ def forget(kind):
         broken.close()
 
 
-@atexit.register
 def close():
     """Ends this process's sandboxes."""
     for kind, process in list(_current):
         if process == os.getpid():
             forget(kind)
+
+
+atexit.register(close)
+Finalize(None, close, exitpriority=0)  # a process of multiprocessing ends without atexit
