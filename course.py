@@ -31,7 +31,7 @@ WINDOWS = os.name == "nt"
 VENV_PYTHON = VENV / ("Scripts/python.exe" if WINDOWS else "bin/python")
 STAMP = VENV / "course.stamp"           # empty while .venv is being made; the last thing written
 ME = "py course.py" if WINDOWS else "python3 course.py"
-LATER = {"book": "the web book", "release": "the students' copy", "grade": "grading a class"}
+LATER = {"book": "the web book"}
 
 
 class Trouble(Exception):
@@ -467,6 +467,15 @@ def bench(options, rest):
     return run(course_python(options.wheels), ["-m", "reference.bench", *rest], MPLBACKEND="Agg", **THREADS)
 
 
+def classroom(options, rest):
+    """grade, collect, release: an instructor's commands, which exercises/grader/classroom/ does."""
+    if not (ROOT / "exercises/grader/classroom").is_dir():
+        raise Trouble(f"This is the students' copy of the course; '{options.command}' is in the "
+                      "instructor's.")
+    return run(course_python(options.wheels), ["-m", "exercises.grader.classroom", options.command, *rest],
+               COURSE_FROM=os.getcwd(), MPLBACKEND="Agg", **THREADS)
+
+
 def check(options, _):
     if options.target is None:
         return show_checks()
@@ -560,7 +569,7 @@ def later(options, _):
 
 def overview(parser):
     parser.print_help()
-    state = "set up" if is_ready() else "not set up yet; lab, test, check and bench do that first"
+    state = "set up" if is_ready() else "not set up yet; lab, test, check, bench and grade do that first"
     print(f"\nUnits here: {', '.join(units())}. The environment is {state}.")
     return 0
 
@@ -576,7 +585,7 @@ def make_parser():
         added = commands.add_parser(name, help=summary, usage=usage and f"{ME} {name} {usage}",
                                     description=f"{summary[0].upper()}{summary[1:]}. {more}")
         added.set_defaults(function=function, passes_on=usage is not None)
-        if function in (lab, test, check, bench):
+        if function in (lab, test, check, bench, classroom):
             added.add_argument("--wheels", metavar="DIR", help="set up without network, from packages in "
                                f"DIR, which this fills: {FETCH}")
         return added
@@ -595,7 +604,19 @@ def make_parser():
     added.add_argument("unit", metavar="UNIT")
     command("update", update, "bring new versions into work/, beside those copies that you have edited")
     command("bench", bench, "speed against error: a table, JSON lines and plots in build/bench",
-            "Without CASE: all cases.", usage="[--wheels DIR] [CASE ...] [OPTIONS OF reference.bench]")
+            "Without CASE: all cases.",
+            usage="[--wheels DIR] [CASE ...] [--out DIR] [--quick] [--scheduler ADDRESS]")
+    command("grade", classroom, "grade a class: FOLDER/submitted/<student>/<unit>/*.ipynb",
+            "Writes scores.csv, feedback/ and instructor/ beside submitted/, or to --out. After an "
+            "interruption the same command goes on where it stopped. More: lectures/instructors.md.",
+            usage="[--wheels DIR] FOLDER [--out DIR] [--unit UNIT] [--seed N] [--jobs N] "
+                  "[--scheduler ADDRESS] [--regrade] [--allow-lower] [--anonymous] [--canvas CSV] "
+                  "[--moodle CSV] [--exercises DIR] [--unsafe-no-sandbox]")
+    command("collect", classroom, "unpack a download from Canvas or Moodle into submitted/<student>/<unit>/",
+            usage="[--wheels DIR] ZIP [--out FOLDER] [--unit UNIT] [--exercises DIR]")
+    command("release", classroom, "make the students' copy: no solutions, oracles, generators or seeds",
+            "Writes release/<unit>/ as nbgrader hands it out, and course.zip.",
+            usage="[--wheels DIR] [--out DIR] [--exercises DIR]")
     for name, what in LATER.items():
         command(name, later, what + " (not part of the course yet)", usage="...")
     return parser

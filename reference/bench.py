@@ -1,6 +1,6 @@
 """Speed against error: our integrators beside pymunk and pybullet, on every case with a known answer.
 
-``python -m reference.bench [CASE…] [--out DIR] [--quick]``, or ``course.py bench``.
+``python -m reference.bench [CASE…] [--out DIR] [--quick] [--scheduler ADDRESS]``, or ``course.py bench``.
 
 A method is a curve: for each case and method, error against processor seconds as dt falls. What is timed is
 ``advance`` on a scene that is ready, on all sides: an engine's loop over its steps counts, since that is how
@@ -22,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
+from . import cluster
 from .bench_methods import CONTESTS, ladder, methods_of
 from .bench_report import plot, summary, table
 from .cases import CASES
@@ -61,6 +62,31 @@ def _row(label, method, steps, error, status, seconds):
     }
 
 
+def contests(labels, longest, repeats, scheduler=None):
+    """(label, rows) of each contest, in order; with a scheduler's address, each as one task of its cluster.
+
+    A contest stays in one process, so that its methods meet the same machine. On a cluster's worker no other
+    task should run: give it one thread, and no neighbour on its processor.
+    """
+    if scheduler is None:
+        for number, label in enumerate(labels, start=1):
+            yield label, contest(label, longest, repeats, _progress(f"[{number}/{len(labels)}] "))
+        return
+    with cluster.connect(scheduler) as client:
+        tasks = ((label, json.dumps([label, longest, repeats])) for label in labels)
+        rows_of = {}
+        for label, future in cluster.finished(client, contest_as_text, tasks):
+            rows_of[label] = json.loads(future.result())
+            print(f"[{len(rows_of)}/{len(labels)}] {label}: measured", file=sys.stderr, flush=True)
+    yield from ((label, rows_of[label]) for label in labels)
+
+
+def contest_as_text(text):
+    """A contest as a task: [label, longest, repeats] in JSON → its rows in JSON."""
+    label, longest, repeats = json.loads(text)
+    return json.dumps(contest(label, longest, repeats, lambda message: None))
+
+
 def chosen_labels(names):
     """Contests by their labels, or by a case's name for all of its contests; no names: all of them."""
     if not names:
@@ -84,10 +110,13 @@ def main(arguments=None):
     parser.add_argument(
         "--quick", action="store_true", help="short runs, few repeats: a look, no measurement"
     )
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="measure on a Dask cluster")
     options = parser.parse_args(arguments)
     try:
         labels = chosen_labels(options.cases)
-    except KeyError as error:
+        if options.scheduler:
+            cluster.require_safe(options.scheduler)
+    except (KeyError, cluster.ClusterError) as error:
         parser.error(error.args[0])
     for engine in ENGINES.values():
         if not engine.available:
@@ -95,8 +124,7 @@ def main(arguments=None):
     longest, repeats = (0.03, 3) if options.quick else (0.2, 5)
     options.out.mkdir(parents=True, exist_ok=True)
     everything, text = [], []
-    for number, label in enumerate(labels, start=1):
-        rows = contest(label, longest, repeats, _progress(f"[{number}/{len(labels)}] "))
+    for label, rows in contests(labels, longest, repeats, options.scheduler):
         everything += rows
         text.append(table(label, rows))
         print(text[-1], flush=True)

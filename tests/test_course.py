@@ -497,7 +497,7 @@ def test_foreign_settings_do_not_reach_children(course, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "command", ["lab", "test", "check", "reset", "update", "bench", "book", "release", "grade"]
+    "command", ["lab", "test", "check", "reset", "update", "bench", "book", "release", "grade", "collect"]
 )
 def test_help_and_overview(folder, command):
     told = ask(folder, command, "--help")
@@ -506,12 +506,17 @@ def test_help_and_overview(folder, command):
     assert told.returncode == 0 and re.search(rf"^ +{command} ", told.stdout, re.MULTILINE)
 
 
-@pytest.mark.parametrize(
-    "command", [["book"], ["release", "--out", "x"], ["grade", "submitted", "--jobs", "2"]]
-)
-def test_what_is_to_come_says_so(folder, command):
-    told = ask(folder, *command)
+def test_what_is_to_come_says_so(folder):
+    told = ask(folder, "book")
     assert told.returncode == 2 and "is not part of the course yet" in told.stderr
+
+
+@pytest.mark.parametrize(
+    "command", [["release", "--out", "x"], ["grade", "submitted", "--jobs", "2"], ["collect", "x.zip"]]
+)
+def test_a_students_copy_has_no_instructors_commands(folder, command):
+    told = ask(folder, *command)
+    assert told.returncode == 2 and "students' copy" in told.stderr
 
 
 @pytest.mark.parametrize(

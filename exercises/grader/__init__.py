@@ -14,5 +14,8 @@ Two sides talk over a pipe, in JSON text. What knows the answers stays on the gr
     student's side    worker     looks functions up, calls them, sends back what they return
                       cells      runs a notebook's cells
                       absent     stands in for packages that an exercise is to be solved without
+                      ipython    IPython's syntax as plain Python
+                      numba_cache  switched off: its files are pickles
                       serve      the loop of the shell's subprocess
+    around it         sandbox    what a class's submissions run in: see there
 """

@@ -1,7 +1,9 @@
-"""Stands in for packages that an exercise is to be solved without: the reference, and the engines that judge.
+"""Stands in for all packages but a few: an exercise is solved with the standard library, NumPy, SciPy, Numba
+and Matplotlib, without the reference and without the engines that judge.
 
 `import reference` in a student's cell goes through, so that the cell's other lines run, but using anything of
-it raises. So a notebook that leans on them fails in the shell as it will in class, and says why.
+it raises. So a notebook that leans on them fails in the shell as it will in class, and says why. What only
+shows things (IPython.display) may be used, and does nothing.
 """
 
 import importlib.abc
@@ -9,7 +11,26 @@ import importlib.machinery
 import sys
 import types
 
-PACKAGES = ("reference", "pymunk", "pybullet", "pybullet_data", "pybullet_utils")
+TOOLS = ("numpy", "scipy", "numba", "matplotlib")
+NEEDED_BY_TOOLS = (
+    "llvmlite", "mpl_toolkits", "pylab", "PIL", "contourpy", "kiwisolver", "cycler", "dateutil", "six",
+    "pyparsing", "packaging", "fontTools",
+)  # fmt: skip
+PRESENT = {*sys.stdlib_module_names, "exercises", *TOOLS, *NEEDED_BY_TOOLS}
+HIDDEN = (
+    "reference",
+    "pymunk",
+    "pybullet",
+    "pybullet_data",
+    "pybullet_utils",
+    "IPython",
+)  # if already imported
+INERT = ("IPython", "ipywidgets", "matplotlib_inline", "tqdm", "google")
+
+
+def is_present(name):
+    """May a student's cell import this module?"""
+    return name.split(".")[0] in PRESENT
 
 
 class Absent(ImportError):
@@ -41,28 +62,75 @@ class _Use:
         self._raise()
 
 
+class _Inert:
+    """Any name of a package that only shows things. Whatever is done with it, nothing happens."""
+
+    def __call__(self, *arguments, **options):
+        return (
+            arguments[0] if arguments else self
+        )  # tqdm(range(9)) is range(9), and a decorator changes nothing
+
+    def __getattr__(self, name):
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return self
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *trouble):
+        return False
+
+    def __iter__(self):
+        return iter(())
+
+
+INERT_THING = _Inert()
+shell = INERT_THING  # what get_ipython() gives; cells.py puts its own here
+
+
 class _Module(types.ModuleType):
     def __getattr__(self, name):
         if name.startswith("__"):
             raise AttributeError(name)
+        if self.__name__.split(".")[0] in INERT:
+            known = {"get_ipython": lambda: shell, "trange": range}
+            return known.get(name, INERT_THING)
         return _Use(f"{self.__name__}.{name}")
 
 
 class _Finder(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    def __init__(self, strict):
+        self.strict = strict
+
     def find_spec(self, name, path=None, target=None):
-        if name.split(".")[0] in PACKAGES:
-            return importlib.machinery.ModuleSpec(name, self, is_package=True)
-        return None
+        top = name.split(".")[0]
+        if top in PRESENT:
+            return None
+        if top not in (*HIDDEN, *INERT) and _asked_by_a_library():
+            if self.strict:  # it may be seen there, and yet not be read
+                raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+            return None
+        return importlib.machinery.ModuleSpec(name, self, is_package=True)
 
     def create_module(self, spec):
         return _Module(spec.name)
 
     def exec_module(self, module):
-        pass
+        if module.__name__ == "IPython":
+            module.version_info = (9, 0, 0)  # Matplotlib looks
 
 
-def hide():
-    """From now on, in this process, the packages are absent."""
-    for name in [name for name in sys.modules if name.split(".")[0] in PACKAGES]:
+def _asked_by_a_library():
+    """Libraries look for packages that they can do without, and must learn that those are not there."""
+    frame = sys._getframe(2)
+    while frame is not None and frame.f_code.co_filename.startswith("<frozen importlib"):
+        frame = frame.f_back
+    return frame is not None and str(frame.f_globals.get("__name__")).split(".")[0] in PRESENT
+
+
+def hide(strict=False):
+    """From now on, in this process, all other packages are absent; if `strict`, for libraries too."""
+    for name in [name for name in sys.modules if name.split(".")[0] in HIDDEN]:
         del sys.modules[name]
-    sys.meta_path.insert(0, _Finder())
+    sys.meta_path.insert(0, _Finder(strict))

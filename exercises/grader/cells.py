@@ -10,12 +10,18 @@ import asyncio
 import inspect
 import json
 import linecache
+import os
 import re
+import sys
 import types
 
+from exercises.grader import absent, ipython
 from exercises.grader.worker import describe
 
 RUN_THEIR_CELL = {"time", "timeit", "capture", "prun", "memit", "python", "python3"}
+
+
+OPTIONS = re.compile(r"^(?:-[a-z]+\s*\d*\s+)+")  # %timeit -n 10 -r3
 
 
 class Unreadable(ValueError):
@@ -25,16 +31,25 @@ class Unreadable(ValueError):
 def read_cells(path):
     """The source of each code cell of a .ipynb or .py file, in order."""
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
+        data = path.read_bytes()
+    except OSError as error:
         raise Unreadable(f"{path} cannot be read: {error}") from None
-    if path.suffix != ".ipynb":
+    return cells_of(data, path, path.suffix == ".ipynb")
+
+
+def cells_of(data, name, is_notebook):
+    """The same of a file's bytes; `name` stands in the error."""
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise Unreadable(f"{name} cannot be read: {error}") from None
+    if not is_notebook:
         return [cell for cell in re.split(r"(?m)^# %%.*$", text) if cell.strip()]
     try:
         cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
         return ["".join(cell["source"]) for cell in cells]
     except (ValueError, KeyError, TypeError, RecursionError):
-        raise Unreadable(f"{path} is not a notebook: its JSON has no list of cells") from None
+        raise Unreadable(f"{name} is not a notebook: its JSON has no list of cells") from None
 
 
 class Namespace:
@@ -43,10 +58,12 @@ class Namespace:
     def __init__(self):
         self.module = types.ModuleType("__main__")
         self.names = self.module.__dict__
-        self.names.update(display=lambda *things, **options: None, get_ipython=lambda: Shell(self))
+        self.names.update(display=lambda *things, **options: None, get_ipython=lambda: absent.shell)
+        absent.shell = Shell(self)
 
     def run(self, source, name="cell"):
         """Runs one cell. None, or the exception as `describe` tells it."""
+        _reopen_output()
         try:
             tree = ast.parse(_as_python(source), name)
             linecache.cache[name] = (
@@ -63,17 +80,47 @@ class Namespace:
             return describe(error)
         return None
 
+    def run_definitions(self, source, name="cell"):
+        """Runs only a cell's imports, definitions and literal assignments, each whether or not others
+        raise."""
+        for part in definitions(source):
+            self.run(part, name)
+
+
+def _reopen_output():
+    """A cell that closed the output must not make the next one's print raise."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name, None)
+        if stream is None or getattr(stream, "closed", False):
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115 (stays open)
+
+
+def definitions(source):
+    """What is left of a cell that cannot run as a whole."""
+    try:
+        body = ast.parse(_as_python(source)).body
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return []
+    return [ast.unparse(statement) for statement in body if _defines(statement)]
+
+
+def _defines(statement):
+    if isinstance(statement, ast.Assign | ast.AnnAssign):
+        try:
+            ast.literal_eval(statement.value)
+            return True
+        except (ValueError, TypeError, SyntaxError, RecursionError, MemoryError):
+            return False
+    kinds = (ast.Import, ast.ImportFrom, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
+    return isinstance(statement, kinds)
+
 
 def _as_python(source):
     try:
         compile(source, "cell", "exec", flags=ast.PyCF_ALLOW_TOP_LEVEL_AWAIT)
         return source
     except (SyntaxError, ValueError):
-        from IPython.core.inputtransformer2 import (
-            TransformerManager,  # takes time to import: only where needed
-        )
-
-        return TransformerManager().transform_cell(source)
+        return ipython.translate(source)
 
 
 class Shell:
@@ -84,12 +131,22 @@ class Shell:
         self.namespace, self.user_ns = namespace, namespace.names
 
     def run_line_magic(self, magic, line, *rest):
-        if magic in RUN_THEIR_CELL and line.strip():
-            exec(compile(_as_python(line), "magic", "exec"), self.user_ns)
+        line = OPTIONS.sub("", line.strip())
+        if magic not in RUN_THEIR_CELL or not line:
+            return None
+        try:
+            code = compile(line, "magic", "eval")
+        except SyntaxError:  # no expression: `%time x = 1`
+            code = compile(_as_python(line), "magic", "exec")
+        result = eval(code, self.user_ns)
+        return result if magic == "time" else None
 
     def run_cell_magic(self, magic, line, cell):
         if magic in RUN_THEIR_CELL:
             exec(compile(_as_python(cell), "cell", "exec"), self.user_ns)
 
+    def getoutput(self, command, *rest, **options):
+        return []
+
     def __getattr__(self, name):
-        return lambda *arguments, **options: None
+        return absent.INERT_THING

@@ -11,6 +11,10 @@ from exercises.grader.replies import Reply, encode
 SELF_STUDY_SEED = 2  # public: notebook and shell draw the same hidden cases, so they give the same points
 
 
+class Unrecorded(Exception):
+    """An oracle cannot answer here: its engine is not installed, and this input is not in the recording."""
+
+
 @dataclass(frozen=True)
 class Case:
     """One question, in words and as values by name. The values are of the kinds that replies.pack knows."""
@@ -34,6 +38,7 @@ class Cause:
 
     text: str
     matches: Callable
+    model: Callable = None  # model(values): what a student with this mistake would return, if known
 
 
 @dataclass(frozen=True)
@@ -98,4 +103,4 @@ def cause_like(text, model):
         error, _ = difference(model(values), verdict.got)
         return error <= max(1e-6, verdict.tolerance)
 
-    return Cause(text, matches)
+    return Cause(text, matches, model)

@@ -2,12 +2,17 @@
 
 Every judge reduces an answer to one number, its error, beside the tolerance: so the tests of an exercise can
 measure how far right solutions stay below it and mistakes above. NaN is never within a tolerance.
+
+Most judges can say what they know of a case as data, `judge.data(values)`: that is what the students' bundle
+holds in place of an oracle, and released.py makes judges of it again.
 """
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
+
+from exercises.grader.replies import pack
 
 
 @dataclass(frozen=True)
@@ -106,6 +111,13 @@ def _relative_to(floor):
     return f"relative to the largest number expected, or to {floor:g} where that is larger"
 
 
+def _as_data(kind, oracle, tolerance, floor):
+    """`data` of a judge that compares with an oracle's answer."""
+    return lambda values: {
+        "kind": kind, "expected": pack(oracle(values)), "tolerance": tolerance, "floor": floor
+    }
+
+
 def equal(oracle, tolerance, floor=1.0):
     """The answer is `oracle(values)`, to a tolerance relative to its largest number, taken as at least
     `floor`."""
@@ -115,6 +127,7 @@ def equal(oracle, tolerance, floor=1.0):
         error, complaint = difference(expected, got, floor)
         return Verdict(error, tolerance, expected, got, complaint, _relative_to(floor))
 
+    judge.data = _as_data("equal", oracle, tolerance, floor)
     return judge
 
 
@@ -132,6 +145,7 @@ def up_to_sign(oracle, tolerance, floor=1.0):
         nearer, error, complaint = min(both, key=lambda item: item[1])
         return Verdict(error, tolerance, nearer, got, complaint, _relative_to(floor))
 
+    judge.data = _as_data("up_to_sign", oracle, tolerance, floor)
     return judge
 
 
@@ -152,6 +166,7 @@ def unordered(oracle, tolerance, floor=1.0):
         error, complaint = difference(expected, rows[order], floor)
         return Verdict(error, tolerance, expected, got, complaint, _relative_to(floor))
 
+    judge.data = _as_data("unordered", oracle, tolerance, floor)
     return judge
 
 
@@ -196,14 +211,55 @@ def fitted_order(errors, order, tolerance):
     return judge
 
 
+def order_of_runs(exact, steps, order, tolerance, first=0):
+    """`fitted_order` of whole runs of `steps` steps each, which are the answers from number `first` on.
+
+    `exact(values)` → (duration, the exact states at equally spaced times that all runs share, the start's
+    first).
+    """
+
+    def errors(values, answers):
+        duration, states = exact(values)
+        runs, sizes = [np.asarray(run, dtype=float) for run in answers[first:]], []
+        for run, n in zip(runs, steps, strict=True):
+            if run.shape != (n + 1, *states.shape[1:]):
+                raise ValueError("a run has not steps + 1 rows")
+            sizes.append(np.max(np.abs(run[:: n // (len(states) - 1)] - states)))
+        return [duration / n for n in steps], sizes
+
+    def data(values):
+        duration, states = exact(values)
+        settings = {"steps": list(steps), "order": order, "tolerance": tolerance, "first": first}
+        return {"kind": "order_of_runs", "duration": duration, "states": pack(states), **settings}
+
+    judge = fitted_order(errors, order, tolerance)
+    judge.data = data
+    return judge
+
+
 def on_answer(number, judge):
     """A judge that looks at one of several calls' answers only."""
-    return lambda values, answers: judge(values, [answers[number]])
+
+    def on_one(values, answers):
+        return judge(values, [answers[number]])
+
+    on_one.data = lambda values: {"kind": "on_answer", "number": number, "judge": data_of(judge, values)}
+    return on_one
 
 
 def all_of(*judges):
     """All judges must agree; the worst verdict is the one told."""
-    return lambda values, answers: max((judge(values, answers) for judge in judges), key=_badness)
+
+    def worst(values, answers):
+        return max((judge(values, answers) for judge in judges), key=_badness)
+
+    worst.data = lambda values: {"kind": "all_of", "judges": [data_of(judge, values) for judge in judges]}
+    return worst
+
+
+def data_of(judge, values):
+    """What a judge knows of a case, as data; None where it is a computation that no data can stand for."""
+    return judge.data(values) if hasattr(judge, "data") else None
 
 
 def _badness(verdict):

@@ -12,6 +12,8 @@ from exercises.grader.check import SELF_STUDY_SEED
 from exercises.grader.judges import Verdict
 from exercises.grader.replies import BadReply, admit, pack, parse
 
+LONGEST_WORDS, MOST_LINES = 600, 8
+
 
 @dataclass(frozen=True)
 class Failure:
@@ -75,19 +77,29 @@ def _read(text, count, reply):
         replies = parse(text)["replies"]
         if len(replies) != count:
             raise BadReply(f"{len(replies)} replies came to {count} calls")
-        return [(_value(entry, reply), str(entry.get("printed", ""))) for entry in replies]
-    except (BadReply, KeyError, TypeError, AttributeError) as error:
-        return [(Failure("answer", f"the response cannot be read: {error}"), "")] * count
+        return [(_value(entry, reply), _words(entry.get("printed", ""))) for entry in replies]
+    except (BadReply, KeyError, TypeError, AttributeError, IndexError) as error:
+        return [(Failure("answer", f"the response cannot be read: {_words(error)}"), "")] * count
 
 
 def _value(entry, reply):
     if "error" in entry:
         error = entry["error"]
-        return Failure(str(error["kind"]), str(error["message"]), tuple(str(line) for line in error["lines"]))
+        lines = error["lines"] if isinstance(error["lines"], list) else []
+        return Failure(
+            _words(error["kind"]), _words(error["message"]), tuple(map(_words, lines[:MOST_LINES]))
+        )
     try:
         return admit(entry["value"], reply)
     except BadReply as error:
         return Failure("answer", str(error))
+
+
+def _words(value):
+    """Text that came from the other side: not too long, and without half letters that no file can hold. Other
+    things are only named: to write them out may overflow."""
+    text = str(value) if isinstance(value, str | Exception) else type(value).__name__
+    return text[:LONGEST_WORDS].encode("utf-8", "replace").decode()
 
 
 def mark_all(checks, ask, seed=SELF_STUDY_SEED):

@@ -17,6 +17,7 @@ import numpy as np
 
 LONGEST_TEXT = 8_000_000  # characters: far above any answer asked for, far below what hurts the grader
 LONGEST_WORD = 200
+DEEPEST = 30  # levels of tuples and dicts
 ARRAY_TYPES = {"f8": np.dtype("<f8"), "i8": np.dtype("<i8"), "b1": np.dtype("|b1")}
 
 
@@ -108,9 +109,11 @@ def _pack_array(array):
     raise BadReply(f"an array of type {array.dtype} cannot be checked: use real numbers")
 
 
-def unpack(data, resolve=None):
+def unpack(data, resolve=None, depth=0):
     """The value of nested JSON data. `resolve(data)` makes `given` and `student` arguments; without it none
     may come."""
+    if depth > DEEPEST:  # what handles the value next, by recursion too, must not overflow
+        raise BadReply(f"the answer is nested more than {DEEPEST} deep")
     if data is None or isinstance(data, (bool, float)):
         return data
     if isinstance(data, int):
@@ -122,9 +125,9 @@ def unpack(data, resolve=None):
     if "word" in data:
         return str(data["word"])[:LONGEST_WORD]
     if "tuple" in data:
-        return tuple(unpack(item, resolve) for item in data["tuple"])
+        return tuple(unpack(item, resolve, depth + 1) for item in data["tuple"])
     if "dict" in data:
-        return {str(key): unpack(item, resolve) for key, item in data["dict"]}
+        return {_key(key): unpack(item, resolve, depth + 1) for key, item in data["dict"]}
     if "array" in data:
         return _unpack_array(data)
     if "sparse" in data:
@@ -132,6 +135,19 @@ def unpack(data, resolve=None):
     if resolve is not None and ("given" in data or "student" in data):
         return resolve(data)
     raise BadReply("this is not how a value is written")
+
+
+def as_argument(data):
+    """For `unpack`, of cases that were saved: an argument as a check holds it, not yet built."""
+    if "student" in data:
+        return Student(data["student"])
+    return Given(data["given"], **unpack(data["parameters"], as_argument))
+
+
+def _key(key):
+    if not isinstance(key, str) or len(key) > LONGEST_WORD:
+        raise BadReply("the keys of a dict must be short words")
+    return key.encode("utf-8", "replace").decode()  # half letters can be written to no file
 
 
 def _unpack_array(data):
@@ -149,7 +165,7 @@ def _unpack_sparse(data):
 
     shape, row, column, value = (
         tuple(data["sparse"]),
-        *(unpack(data[key]) for key in ("row", "column", "value")),
+        *(_unpack_array(data[key]) for key in ("row", "column", "value")),
     )
     if len(shape) != 2 or not all(type(n) is int and 0 <= n < 2**31 for n in shape):
         raise BadReply("a sparse array's shape must be two whole numbers")

@@ -14,10 +14,9 @@ from pathlib import Path
 
 import exercises
 from exercises.grader.cells import read_cells
-from exercises.grader.check import SELF_STUDY_SEED
+from exercises.grader.check import SELF_STUDY_SEED, Unrecorded
 from exercises.grader.marking import mark
 from exercises.grader.notebook import page
-from exercises.grader.recordings import Unrecorded
 from exercises.grader.report import report, total
 from exercises.grader.student import StudentProcess
 

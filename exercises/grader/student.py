@@ -1,7 +1,7 @@
 """The shell's subprocess, seen from outside: it runs a student's cells, and answers over a pipe.
 
 A cell or a question that takes too long, or that kills the process, costs only itself: a new process runs the
-other cells again, and goes on.
+other cells again, and of that cell what defines things, as the class's grader does.
 """
 
 import contextlib
@@ -29,7 +29,7 @@ class StudentProcess:
 
     def __init__(self, unit, cells, folder, limit=60.0):
         self.unit, self.cells, self.folder, self.limit = unit, cells, folder, limit
-        self.skipped, self.troubles = set(), []
+        self.partly, self.skipped, self.troubles = set(), set(), []
         self._start()
 
     def ask(self, text):
@@ -62,11 +62,21 @@ class StudentProcess:
             except Gone as reason:
                 if number == 0:
                     raise OSError(f"no Python process could be started for the check: {reason}") from None
-                self.skipped.add(number)
-                self.troubles.append((number, f"it was left out: {reason}"))
+                self._leave_out(number, reason)
+
+    def _leave_out(self, number, reason):
+        """At first all but its definitions; where these end the process, too, all of it."""
+        if number in self.partly:
+            self.skipped.add(number)
+            return
+        self.partly.add(number)
+        self.troubles = [trouble for trouble in self.troubles if trouble[0] != number]
+        kept = "its imports, definitions and literal assignments, if any, are kept"
+        self.troubles.append((number, f"it was left out: {reason}; {kept}"))
 
     def _run_cell(self, number, source):
-        response = self._exchange(json.dumps({"cell": source, "name": f"cell {number}"}))
+        request = {"cell": source, "name": f"cell {number}", "part": number in self.partly}
+        response = self._exchange(json.dumps(request))
         error = json.loads(response)["error"]
         if error and number not in dict(self.troubles):
             self.troubles.append(

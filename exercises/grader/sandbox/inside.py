@@ -1,0 +1,106 @@
+"""The worker's loop: parse the notebook, run its cells, answer one question, end.
+
+Messages come one a line, in JSON; bytes that belong to one follow its line. Until the first cell runs, what
+is sent back is our own word; after that it is the student's.
+
+    {"open": slug, "given": n, "file": m, "form": word}   n bytes of given.py's code, m of the file
+                                         → {"titles": [first line of each cell]} or {"rejected": why}
+    {"run": [["whole" or "part" or "no", number], ...]}       → {"done": number, "error": ...} for each
+    {"calls": [...]}                                          → {"replies": [...]}, and the end
+    {"task": name, "extra": ...}                              → {"task": result}, and the end
+    {"canary": {...}}                                         → {"canary": [what got through]}, and the end
+"""
+
+import importlib
+import json
+import marshal
+import os
+import sys
+import types
+
+import exercises
+from exercises.grader.cells import Namespace, Unreadable, cells_of
+from exercises.grader.sandbox import TASKS
+from exercises.grader.worker import Worker
+
+MOST_CELLS = 5_000
+TITLE = 60
+
+
+class Inside:
+    def __init__(self, inbox, outbox):
+        self.inbox, self.outbox = os.fdopen(inbox, "rb"), outbox
+        self.cells, self.namespace, self.worker = [], None, None
+
+    def serve(self):
+        for line in self.inbox:
+            request = json.loads(line)
+            kind = next(iter(request))
+            if kind == "open":
+                for message in self.open(request):
+                    self.send(message)
+            elif kind == "run":
+                for mode, number in request["run"]:
+                    self.send({"done": number, "error": self.run(mode, number)})
+            else:
+                self.write(self.last_word(kind, request, line))
+                return
+
+    def open(self, request):
+        """What to send back; a notebook's cells, too, to be sent in alone from the second time on."""
+        given, data = self.inbox.read(request["given"]), self.inbox.read(request["file"])
+        try:
+            is_notebook = request["form"] == "notebook"
+            self.cells = (
+                json.loads(data) if request["form"] == "cells" else cells_of(data, "the file", is_notebook)
+            )
+        except Unreadable as error:
+            return [{"rejected": str(error)}]
+        if not all(isinstance(cell, str) for cell in self.cells) or len(self.cells) > MOST_CELLS:
+            return [{"rejected": f"the file is not a notebook of at most {MOST_CELLS} cells"}]
+        self.namespace = Namespace()
+        sys.modules["__main__"] = self.namespace.module
+        module = load_given(request["open"], given)
+        self.worker = Worker(self.namespace.names, module)
+        titles = {"titles": [title(cell) for cell in self.cells]}
+        return [titles] if request["form"] == "cells" else [titles, self.cells]
+
+    def run(self, mode, number):
+        name, source = f"cell {number}", self.cells[number - 1]
+        if mode == "part":
+            return self.namespace.run_definitions(source, name)
+        return self.namespace.run(source, name) if mode == "whole" else None
+
+    def last_word(self, kind, request, line):
+        if kind == "calls":
+            return self.worker.answer(line).encode()
+        if kind == "task":
+            module, _, function = TASKS[request["task"]].partition(":")
+            result = getattr(importlib.import_module(module), function)(self.cells, request["extra"])
+            return json.dumps({"task": result}, allow_nan=False).encode()
+        from exercises.grader.sandbox import canary
+
+        return json.dumps({"canary": canary.sing(**request["canary"])}).encode()
+
+    def send(self, message):
+        self.write(json.dumps(message).encode())
+
+    def write(self, data):
+        rest = memoryview(data + b"\n")
+        while rest:
+            rest = rest[os.write(self.outbox, rest) :]
+
+
+def load_given(unit, code):
+    """given.py, compiled by the grader, as the module that `load` finds; and `load` told that there is this
+    unit alone."""
+    module = types.ModuleType(f"exercises.{unit}.given")
+    exec(marshal.loads(code), module.__dict__)
+    sys.modules[module.__name__] = module
+    exercises.units = lambda: [unit]
+    return module
+
+
+def title(cell):
+    line = next((line.strip() for line in cell.splitlines() if line.strip()), "")
+    return line[:TITLE].encode("utf-8", "replace").decode()
