@@ -199,7 +199,12 @@ def swing_exact(v):
     factor = v["mass"] * given.GRAVITY * v["length"] / (v["inertia"] + v["mass"] * v["length"] ** 2)
     times = v["dt"] * np.arange(v["steps"] + 1)
     run = solve_ivp(
-        lambda t, y: (y[1], -factor * math.sin(y[0])), (0, times[-1]), (v["angle"], 0.0), "DOP853",
-        t_eval=times, rtol=1e-10, atol=1e-12,
+        lambda t, y: (y[1], -factor * math.sin(y[0])),
+        (0, times[-1]),
+        (v["angle"], 0.0),
+        "DOP853",
+        t_eval=times,
+        rtol=1e-10,
+        atol=1e-12,
     )
     return run.y[0]

@@ -176,17 +176,17 @@ GYROSTAT_RATE = Check(
     section="Newton and Euler",
     causes=(
         cause_like(
-            "The gyroscopic term Ω × (I Ω + h) is missing: angular momentum is constant in the world, not in "
-            "the turning frame.",
+            "The gyroscopic term Ω × (I Ω + h_w) is missing: angular momentum is constant in the world, not "
+            "in the turning frame.",
             lambda v: right.gyrostat_rate(v, gyroscopic=0),
         ),
         cause_like(
-            "The gyroscopic term has the wrong sign: it is −Ω × (I Ω + h) on the torque's side, and the "
+            "The gyroscopic term has the wrong sign: it is −Ω × (I Ω + h_w) on the torque's side, and the "
             "order of the cross product counts.",
             lambda v: right.gyrostat_rate(v, gyroscopic=-1),
         ),
         cause_like(
-            "The wheel's angular momentum h is missing: Ω turns the whole of I Ω + h.",
+            "The wheel's angular momentum h_w is missing: Ω turns the whole of I Ω + h_w.",
             lambda v: right.gyrostat_rate(v, wheel=0),
         ),
         cause_like(
@@ -202,7 +202,8 @@ GYROSTAT_RATE = Check(
             lambda v: v["inertia"] @ right.gyrostat_rate(v),
         ),
         cause_like(
-            "The torque is divided by the diagonal of the inertia: a full tensor needs np.linalg.solve(inertia, …).",
+            "The torque is divided by the diagonal of the inertia: a full tensor needs "
+            "np.linalg.solve(inertia, …).",
             right.gyrostat_divided,
         ),
         cause_like(
@@ -211,7 +212,7 @@ GYROSTAT_RATE = Check(
             right.gyrostat_diagonal,
         ),
     ),
-    hint="Without torque, Ω · I Ω̇ must be 0 (energy) and (I Ω + h) · I Ω̇ must be 0 (length of the angular "
+    hint="Without torque, Ω · I Ω̇ must be 0 (energy) and (I Ω + h_w) · I Ω̇ must be 0 (length of the angular "
     "momentum): see which of the two yours breaks.",
 )
 

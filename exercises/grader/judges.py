@@ -115,7 +115,10 @@ def _relative_to(floor):
 def _as_data(kind, oracle, tolerance, floor):
     """`data` of a judge that compares with an oracle's answer."""
     return lambda values: {
-        "kind": kind, "expected": pack(oracle(values)), "tolerance": tolerance, "floor": floor
+        "kind": kind,
+        "expected": pack(oracle(values)),
+        "tolerance": tolerance,
+        "floor": floor,
     }
 
 

@@ -116,7 +116,7 @@ def _words(value):
 
 
 def mark_in_turn(checks, ask, seed=SELF_STUDY_SEED):
-    """The results one by one. A check that fails is told which of those before it, that it builds on, fail."""
+    """The results one by one. One that fails knows which of the checks before it, that it builds on, fail."""
     failed = set()
     for check in checks:
         result = mark(check, ask, seed)

@@ -93,9 +93,10 @@ def _built_on(result):
     """Where checks before this one fail, on whose functions it builds: those first."""
     if not result.broken:
         return None
-    name, one = result.check.function or result.check.name, len(result.broken) == 1
-    fail = "fails its own check" if one else "fail their own checks"
-    return f"{' and '.join(result.broken)} {fail}, and {name} builds on {'it' if one else 'them'}: mend that first."
+    name, broken = result.check.function or result.check.name, " and ".join(result.broken)
+    if len(result.broken) == 1:
+        return f"{broken} fails its own check, and {name} builds on it: mend that first."
+    return f"{broken} fail their own checks, and {name} builds on them: mend those first."
 
 
 def _known_cause(check, failing):

@@ -108,7 +108,9 @@ def _may_change(data):
     """Is this an array, or does it hold one? Helpers of given.py are none of a student's to change."""
     if not isinstance(data, dict):
         return False
-    return "array" in data or any(map(_may_change, data.get("tuple", [item for _, item in data.get("dict", [])])))
+    return "array" in data or any(
+        map(_may_change, data.get("tuple", [item for _, item in data.get("dict", [])]))
+    )
 
 
 def _same_arrays(after, before):
