@@ -118,8 +118,8 @@ def _cause_of_failure(failure, check):
         return f"The function is not there, or its answer is not {check.form}."
     if failure.kind == "answer" and "NaN" in failure.message:
         return (
-            "nan (not a number) comes of 0/0, of inf − inf, or of the root of a negative number. Is something "
-            "divided by a length that is 0 here? Write the formula without that division."
+            "nan (not a number) comes of 0/0, of inf − inf, or of the root of a negative number. Is "
+            "something divided by a length that is 0 here? Write the formula without that division."
         )
     if failure.kind == "answer" and "inf" in failure.message.split():
         return "inf comes of a division by 0, or of numbers that grow without bound."

@@ -17,8 +17,8 @@ import exercises
 from exercises.grader.cells import read_cells
 from exercises.grader.check import SELF_STUDY_SEED, Unrecorded
 from exercises.grader.marking import mark_in_turn
-from exercises.grader.replies import Student
 from exercises.grader.notebook import page
+from exercises.grader.replies import Student
 from exercises.grader.report import report, total
 from exercises.grader.student import StudentProcess
 
@@ -83,9 +83,8 @@ def _require_a_copy(unit, names, cells, student):
     """Some function is there, or at least begun: a cell with a slip in it may define none."""
     begun = re.compile(rf"\bdef +(?:{'|'.join(map(re.escape, names))})\b")
     if not any(begun.search(cell) for cell in cells) and not student.defines_any(names):
-        raise NotTheExercise(
-            f"This is not a copy of exercise {unit.split('_')[0]}: none of its cells defines {', '.join(names)}."
-        )
+        number, listed = unit.split("_")[0], ", ".join(names)
+        raise NotTheExercise(f"This is not a copy of exercise {number}: none of its cells defines {listed}.")
 
 
 def summarise(unit, results):

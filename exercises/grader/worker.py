@@ -6,8 +6,9 @@ Request and response are one line of JSON text each:
     {"replies": [{"value": ...} or {"error": {"kind", "message", "lines"}}, ...]}      perhaps with "printed"
 
 Each call has its own fresh copies of the arguments, since they are read from the text anew, and random
-generators set to the same state: no call can spoil another. A function that writes into an array it was handed
-is refused: here nothing comes of it, but in a run of the student's own it spoils what its caller holds.
+generators set to the same state: no call can spoil another. A function that writes into an array it was
+handed is refused: here nothing comes of it, but in a run of the student's own it spoils what its caller
+holds.
 """
 
 import contextlib
@@ -148,8 +149,8 @@ def _told_in_place(function, argument, helpers):
     who = f"{function} (or {', '.join(helpers[:4])}, which it uses)" if helpers else function
     name = argument if argument.isidentifier() else "x"
     return (
-        f"{who} changes its argument `{argument}` in place (as `{name} += …` does): write `{name} = {name} + …`, "
-        f"so that who calls it keeps their own {name}."
+        f"{who} changes its argument `{argument}` in place (as `{name} += …` does): write "
+        f"`{name} = {name} + …`, so that who calls it keeps their own {name}."
     )
 
 
