@@ -72,12 +72,12 @@ def _grade(job):
         notebook = base64.b64decode(job["notebook"])
         box.load(notebook)
         rejected = box.status == "rejected"
-        marked = map(nothing, checks) if rejected else map(told, mark_in_turn(checks, box.ask))
+        marked = list(map(nothing, checks) if rejected else map(told, mark_in_turn(checks, box.ask)))
         return {
             "status": box.status,
             "reason": line(box.reason, 500),
             "isolation": box.isolation,
-            "checks": list(marked),
+            "checks": marked,
             "troubles": [
                 [int(one.number), line(one.title, 80), printable(one.text, 1500), bool(one.skipped)]
                 for one in box.troubles[:MOST_TROUBLES]
