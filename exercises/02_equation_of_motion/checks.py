@@ -6,7 +6,7 @@ import numpy as np
 
 import exercises
 from exercises.grader.check import Call, Case, Check, cause, cause_like, remember
-from exercises.grader.judges import all_of, equal, on_answer, order_of_runs
+from exercises.grader.judges import all_of, an_array, equal, on_answer, order_of_runs
 from exercises.grader.replies import Given, Reply, Student
 
 right = exercises.part("02_equation_of_motion", "answers")
@@ -176,17 +176,17 @@ GYROSTAT_RATE = Check(
     section="Newton and Euler",
     causes=(
         cause_like(
-            "The gyroscopic term Ω × (I Ω + h) is missing: angular momentum is constant in the world, not in "
-            "the turning frame.",
+            "The gyroscopic term Ω × (I Ω + h_w) is missing: angular momentum is constant in the world, not "
+            "in the turning frame.",
             lambda v: right.gyrostat_rate(v, gyroscopic=0),
         ),
         cause_like(
-            "The gyroscopic term has the wrong sign: it is −Ω × (I Ω + h) on the torque's side, and the "
+            "The gyroscopic term has the wrong sign: it is −Ω × (I Ω + h_w) on the torque's side, and the "
             "order of the cross product counts.",
             lambda v: right.gyrostat_rate(v, gyroscopic=-1),
         ),
         cause_like(
-            "The wheel's angular momentum h is missing: Ω turns the whole of I Ω + h.",
+            "The wheel's angular momentum h_w is missing: Ω turns the whole of I Ω + h_w.",
             lambda v: right.gyrostat_rate(v, wheel=0),
         ),
         cause_like(
@@ -201,9 +201,18 @@ GYROSTAT_RATE = Check(
             "The result is I Ω̇, a torque: solve with I to get Ω̇.",
             lambda v: v["inertia"] @ right.gyrostat_rate(v),
         ),
-        cause_like("The inertia is used as if it had only its diagonal.", right.gyrostat_diagonal),
+        cause_like(
+            "The torque is divided by the diagonal of the inertia: a full tensor needs "
+            "np.linalg.solve(inertia, …).",
+            right.gyrostat_divided,
+        ),
+        cause_like(
+            "The inertia is used as if it had only its diagonal: a full tensor needs inertia @ Ω, and "
+            "np.linalg.solve(inertia, …).",
+            right.gyrostat_diagonal,
+        ),
     ),
-    hint="Without torque, Ω · I Ω̇ must be 0 (energy) and (I Ω + h) · I Ω̇ must be 0 (length of the angular "
+    hint="Without torque, Ω · I Ω̇ must be 0 (energy) and (I Ω + h_w) · I Ω̇ must be 0 (length of the angular "
     "momentum): see which of the two yours breaks.",
 )
 
@@ -267,6 +276,11 @@ AIR_FORCE = Check(
             right.air_force_over_ground,
         ),
         cause_like("The Magnus force is missing.", lambda v: right.air_force(v, magnus=0)),
+        cause(
+            "0/0 where u = velocity − wind is 0: a direction u/|u| is not defined there. Write the drag as "
+            "−k |u| u, which divides by nothing.",
+            lambda v, verdict: "NaN" in verdict.got.message and not np.any(v["velocity"] - v["wind"]),
+        ),
     ),
     hint="With u = velocity − wind, the drag's power u·F must be −k |u|³, and the Magnus force must be at "
     "right angles to u and to the spin. Look at the order of the arguments, too.",
@@ -345,6 +359,10 @@ KUTTA_STEP = Check(
             "This is the classical fourth-order method. It is a good one, but another one is asked for.",
             right.rk4,
         ),
+        cause(
+            "k1, k2 and k3 are right, their weights are not: y + dt (k1 + 4 k2 + k3) / 6.",
+            lambda v, verdict: right.is_of_other_weights(v, verdict.got),
+        ),
     ),
     hint="Write down k1, k2, k3 for ẏ = −y, y = 1, dt = 0.5 by hand: −1, −0.75, −0.75.",
 )
@@ -391,11 +409,12 @@ MARCH = Check(
     ),
     hidden=lambda stream: list(to_march(stream)),
     judge=all_of(
-        on_answer(0, equal(right.march_euler, 1e-12)),
+        on_answer(0, an_array(equal(right.march_euler, 1e-12))),
         order_of_runs(march_exact, ORDER_STEPS, 3, 0.08, first=1),
     ),
     why="The Euler steps may differ by rounding. The order is fitted from three runs at dt, dt/2, dt/4: at "
-    "these steps a scheme of order 3 shows 3.000 ± 0.001, and the next wrong order is 2 or 4.",
+    "these steps a scheme of order 3 shows 3.000 ± 0.001, and the next wrong order is 2 or 4. The errors are "
+    "the largest differences to the exact y(t) = 1 / (1/y(0) − strength · sin t).",
     form="an array of shape (steps + 1, len(y)): the start, then the state after each step",
     section="Integrators",
     causes=(
@@ -406,6 +425,10 @@ MARCH = Check(
         cause_like(
             "The step is given the time at its end: it wants the time at which it starts.",
             lambda v: right.march_euler(v, clock=lambda k: k + 1),
+        ),
+        cause_like(
+            "`march` calls kutta_step whatever `step` it is given: call step(rate, t, y, dt).",
+            right.march_kutta,
         ),
         cause("The run is right, but kutta_step is of order 1: see the check of kutta_step.", shows_order(1)),
         cause("The run is right, but kutta_step is of order 2: see the check of kutta_step.", shows_order(2)),
@@ -465,8 +488,8 @@ FLIP_TIME = Check(
             lambda v, verdict: 1e-4 < abs(verdict.got - verdict.expected) <= v["dt"],
         ),
         cause(
-            "It should turn over, and never does: is the gyroscopic term in gyrostat_rate, and is it the "
-            "second component whose sign is looked at?",
+            "It should turn over, and never does: is it the second component whose sign is looked at, in "
+            "all steps up to `longest`, with one starting where the one before ended?",
             lambda v, verdict: verdict.got == math.inf,
         ),
         cause(
@@ -474,8 +497,10 @@ FLIP_TIME = Check(
             lambda v, verdict: verdict.expected == math.inf,
         ),
     ),
-    hint="Look first at the checks of gyrostat_rate and kutta_step; then draw Ω₂ over time, and see where "
-    "it crosses zero.",
+    after=("gyrostat_rate", "kutta_step", "march"),
+    hint="Draw Ω₂ over time, and see where it crosses zero. Does the run start from `omega`, with the wheel, "
+    "without torque, in steps of dt? Between step k and k + 1 the line is zero at "
+    "(k + Ω₂[k] / (Ω₂[k] − Ω₂[k+1])) · dt.",
 )
 
 
@@ -497,7 +522,12 @@ SWING = Check(
         cause_like(
             "The angle is updated with the old rate, which is the explicit Euler method; pybullet updates "
             "the rate first, and the angle with the new rate.",
-            lambda v: right.swing(v, first="angle"),
+            lambda v: right.swing(v, first="none"),
+        ),
+        cause_like(
+            "The angle is moved first, and the torque taken at the new angle: symplectic Euler, but position "
+            "first. pybullet renews the rate first, from the torque at the old angle.",
+            lambda v: right.swing(v, first="position"),
         ),
         cause_like(
             "The moment of inertia is that about the centre of mass; the body turns about the pivot: add "

@@ -75,7 +75,10 @@ def _draw_tumble(time, runs):
 
 
 def show_flight(march, step, air_force):
-    """Draws the path of a kicked ball of 0.43 kg: without spin, with spin, and with spin against the wind."""
+    """Draws the path of a kicked ball of 0.43 kg: without spin, with spin, and with spin against the wind.
+
+    It is kicked along +x and up. The spin is about +z (up), the wind blows along −x. Paths end on the ground.
+    """
     mass, gravity, runs = 0.43, np.array([0.0, 0.0, -GRAVITY]), {}
     for label, spin, wind in (
         ("no spin", 0.0, 0.0),
@@ -87,11 +90,21 @@ def show_flight(march, step, air_force):
             force = air_force(y[3:], np.array([0.0, 0.0, spin]), np.array([wind, 0.0, 0.0]), 0.006, 0.0012)
             return np.concatenate([y[3:], gravity + (np.zeros(3) if force is None else force) / mass])
 
-        runs[label] = march(step, rate, np.array([0.0, 0.0, 0.0, 25.0, 0.0, 10.0]), 0.02, 90)
-    if any(np.shape(history) != (91, 6) for history in runs.values()):
+        runs[label] = march(step, rate, np.array([0.0, 0.0, 0.0, 25.0, 0.0, 10.0]), 0.02, 110)
+    if any(np.shape(history) != (111, 6) for history in runs.values()):
         print("The picture comes once march and kutta_step pass their checks.")
         return
-    _draw_flight(runs)
+    _draw_flight({label: _down_to_the_ground(np.asarray(history)) for label, history in runs.items()})
+
+
+def _down_to_the_ground(history):
+    """The rows until the height is 0 again, the last one between the two steps around that."""
+    below = np.flatnonzero(history[1:, 2] < 0)
+    if len(below) == 0:
+        return history
+    last, first = history[below[0]], history[below[0] + 1]
+    part = last[2] / (last[2] - first[2])
+    return np.vstack([history[: below[0] + 1], last + part * (first - last)])
 
 
 def _draw_flight(runs):

@@ -59,6 +59,7 @@ class Check:
     causes: tuple = ()  # Cause, the first that matches is told
     hint: str = ""  # likely cause where none matches
     reply: Reply = field(default_factory=Reply)
+    after: tuple = ()  # names of earlier checks, of functions that this one builds on
     source: Callable = None  # source() -> where the expected values come from, in words
 
     def cases(self, seed):

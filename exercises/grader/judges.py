@@ -8,7 +8,7 @@ holds in place of an oracle, and released.py makes judges of it again.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,6 +23,7 @@ class Verdict:
     got: object
     complaint: str = ""  # what is wrong with the kind of answer: shape, type, missing
     measure: str = ""  # what the error is relative to
+    calls: tuple = (0,)  # numbers of the calls that it is about
 
     @property
     def passed(self):
@@ -114,7 +115,10 @@ def _relative_to(floor):
 def _as_data(kind, oracle, tolerance, floor):
     """`data` of a judge that compares with an oracle's answer."""
     return lambda values: {
-        "kind": kind, "expected": pack(oracle(values)), "tolerance": tolerance, "floor": floor
+        "kind": kind,
+        "expected": pack(oracle(values)),
+        "tolerance": tolerance,
+        "floor": floor,
     }
 
 
@@ -232,16 +236,35 @@ def order_of_runs(exact, steps, order, tolerance, first=0):
         settings = {"steps": list(steps), "order": order, "tolerance": tolerance, "first": first}
         return {"kind": "order_of_runs", "duration": duration, "states": pack(states), **settings}
 
-    judge = fitted_order(errors, order, tolerance)
+    fitted = fitted_order(errors, order, tolerance)
+
+    def judge(values, answers):
+        return replace(fitted(values, answers), calls=tuple(range(first, first + len(steps))))
+
     judge.data = data
     return judge
+
+
+def an_array(judge):
+    """The answer must be an array, and `judge` be content: for what other functions go on to use as one."""
+
+    def of_an_array(values, answers):
+        verdict = judge(values, answers)
+        if not isinstance(answers[0], tuple) or not isinstance(verdict.expected, np.ndarray):
+            return verdict
+        asked = f"an array of shape {verdict.expected.shape} is asked for"
+        complaint = f"this is a list (or a tuple); {asked}: np.array(…) makes one of it"
+        return replace(verdict, error=math.inf, complaint=complaint)
+
+    of_an_array.data = lambda values: {"kind": "an_array", "judge": data_of(judge, values)}
+    return of_an_array
 
 
 def on_answer(number, judge):
     """A judge that looks at one of several calls' answers only."""
 
     def on_one(values, answers):
-        return judge(values, [answers[number]])
+        return replace(judge(values, [answers[number]]), calls=(number,))
 
     on_one.data = lambda values: {"kind": "on_answer", "number": number, "judge": data_of(judge, values)}
     return on_one

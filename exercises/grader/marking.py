@@ -6,13 +6,14 @@ subprocess (shell), or in a sandbox (class).
 
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from exercises.grader.check import SELF_STUDY_SEED
 from exercises.grader.judges import Verdict
 from exercises.grader.replies import BadReply, admit, pack, parse
 
 LONGEST_WORDS, MOST_LINES = 600, 8
+NOT_RAISED = ("answer", "no answer", "in place")  # kinds of Failure that are no exception of the student's
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,7 @@ class Failure:
     kind: str
     message: str
     lines: tuple = ()
+    value: object = None  # what it returned, where that could be read
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,7 @@ class Outcome:
 class Result:
     check: object
     outcomes: list
+    broken: tuple = ()  # names of the checks it builds on that fail
 
     @property
     def passed(self):
@@ -65,10 +68,20 @@ def mark(check, ask, seed=SELF_STUDY_SEED):
 
 def _verdict(check, case, answers):
     values = [value for value, _ in answers]
-    failures = [value for value in values if isinstance(value, Failure)]
-    if failures:
-        return Verdict(math.inf, 0.0, None, failures[0], failures[0].message)
+    failing = [number for number, value in enumerate(values) if isinstance(value, Failure)]
+    if failing:
+        failure, expected = values[failing[0]], _expected(check, case, values)
+        return Verdict(math.inf, 0.0, expected, failure, failure.message, calls=(failing[0],))
     return check.judge(case.values, values)
+
+
+def _expected(check, case, values):
+    """What was to come in place of a Failure, where the judge can say so without an answer."""
+    try:
+        answered = [None if isinstance(value, Failure) else value for value in values]
+        return check.judge(case.values, answered).expected
+    except Exception:  # a judge that must see an answer, or an engine that is not there
+        return None
 
 
 def _read(text, count, reply):
@@ -92,7 +105,7 @@ def _value(entry, reply):
     try:
         return admit(entry["value"], reply)
     except BadReply as error:
-        return Failure("answer", str(error))
+        return Failure("answer", str(error), value=error.value)
 
 
 def _words(value):
@@ -102,5 +115,16 @@ def _words(value):
     return text[:LONGEST_WORDS].encode("utf-8", "replace").decode()
 
 
+def mark_in_turn(checks, ask, seed=SELF_STUDY_SEED):
+    """The results one by one. One that fails knows which of the checks before it, that it builds on, fail."""
+    failed = set()
+    for check in checks:
+        result = mark(check, ask, seed)
+        if not result.passed:
+            failed.add(check.name)
+            result = replace(result, broken=tuple(name for name in check.after if name in failed))
+        yield result
+
+
 def mark_all(checks, ask, seed=SELF_STUDY_SEED):
-    return [mark(check, ask, seed) for check in checks]
+    return list(mark_in_turn(checks, ask, seed))

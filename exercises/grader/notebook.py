@@ -7,7 +7,7 @@ cross the pipe does not pass here either.
 import sys
 
 import exercises
-from exercises.grader.marking import mark
+from exercises.grader.marking import mark_in_turn
 from exercises.grader.report import report, total
 from exercises.grader.worker import Worker
 
@@ -27,11 +27,13 @@ class NotebookCheck:
             print(f"There is no check {name!r}. There is: {', '.join(names)}; check() does them all.")
             return
         worker = Worker(sys._getframe(1).f_globals, exercises.part(self.unit, "given"))
+        asked = [check for check in checks if name in (None, check.name)]
+        before = [check for check in checks if name is not None and check.name in asked[0].after]
         results = []
-        for check in checks:
-            if name in (None, check.name):
-                results.append(mark(check, worker.answer))
-                print(report(results[-1], page(self.unit)), flush=True)
+        for result in mark_in_turn([*before, *asked], worker.answer):
+            if result.check in asked:
+                results.append(result)
+                print(report(result, page(self.unit)), flush=True)
         if name is None:
             print(total(results))
 

@@ -10,6 +10,7 @@ from exercises.grader.check import Call, Case, Cause, Check
 from exercises.grader.judges import (
     Verdict,
     all_of,
+    an_array,
     difference,
     equal,
     on_answer,
@@ -30,6 +31,7 @@ def as_data(check):
     return {
         **{word: getattr(check, word) for word in WORDS},
         "reply": {"words": list(check.reply.words), "nonfinite": check.reply.nonfinite},
+        "after": list(check.after),
         "source": check.source().removesuffix(", run live") if check.source else "",
         "cases": [_case_as_data(check, case) for case in check.visible],
     }
@@ -80,6 +82,7 @@ def _check(data):
         judge=lambda values, answers: _judge(of_case[encode(values)]["judge"])(values, answers),
         calls=lambda values: of_case[encode(values)]["calls"],
         reply=Reply(tuple(data["reply"]["words"]), data["reply"]["nonfinite"]),
+        after=tuple(data["after"]),
         causes=tuple(Cause(text, _looks_like(text, of_case)) for text in texts),
         source=lambda: _source(data["source"]),
     )
@@ -106,6 +109,8 @@ def _judge(data):
     kind = data["kind"]
     if kind == "all_of":
         return all_of(*map(_judge, data["judges"]))
+    if kind == "an_array":
+        return an_array(_judge(data["judge"]))
     if kind == "on_answer":
         return on_answer(data["number"], _judge(data["judge"]))
     if kind == "order_of_runs":

@@ -22,7 +22,10 @@ ARRAY_TYPES = {"f8": np.dtype("<f8"), "i8": np.dtype("<i8"), "b1": np.dtype("|b1
 
 
 class BadReply(ValueError):
-    """The value, or the text, is not one of the declared kinds."""
+    """The value, or the text, is not one of the declared kinds. `value` is what came, where it could be
+    read."""
+
+    value = None
 
 
 @dataclass(frozen=True)
@@ -204,7 +207,11 @@ def admit(data, reply=Reply()):
         raise
     except (ValueError, TypeError, KeyError, IndexError, OverflowError, RecursionError, MemoryError) as error:
         raise BadReply(f"the reply cannot be read ({type(error).__name__})") from None
-    _require_declared(value, reply)
+    try:
+        _require_declared(value, reply)
+    except BadReply as error:
+        error.value = value  # it could be read: so the report can show it
+        raise
     return value
 
 

@@ -4,7 +4,7 @@ import textwrap
 
 import numpy as np
 
-from exercises.grader.marking import Failure
+from exercises.grader.marking import NOT_RAISED, Failure
 from exercises.grader.replies import Given, Student
 
 WIDTH, INDENT = 100, 24
@@ -24,7 +24,7 @@ def report(result, page):
     lines = [f"FAILED  {check.name}: 0 of {check.points} points; {count}."]
     lines += _row("asked for", check.title)
     lines += _row("case", first.case.label)
-    lines += [line for call in first.calls[:1] for line in _row("call", write_call(call))]
+    lines += [line for call in calls_to_show(first) for line in _row("call", write_call(call))]
     lines += _what_came(first)
     lines += _row("why that tolerance", check.why)
     if check.source:
@@ -34,6 +34,11 @@ def report(result, page):
     lines += _row("likely cause", likely_cause(result))
     lines += _row("read", f'{page}, section "{check.section}"')
     return "\n".join(lines)
+
+
+def calls_to_show(outcome):
+    """The calls that the verdict is about: pasted into a cell, they show the failure."""
+    return [outcome.calls[number] for number in outcome.verdict.calls if number < len(outcome.calls)]
 
 
 def _unwritten(check, page):
@@ -49,8 +54,10 @@ def _what_came(outcome):
     verdict = outcome.verdict
     if isinstance(verdict.got, Failure):
         failure = verdict.got
-        raised = failure.kind not in ("answer", "no answer")
-        rows = _row("got", f"{failure.kind}: {failure.message}" if raised else failure.message)
+        rows = [] if verdict.expected is None else _row("expected", write(verdict.expected))
+        rows += _row("got", words_of(failure))
+        if failure.value is not None:
+            rows += _row("", write(failure.value))
         return rows + [line for text in failure.lines for line in _row("", text)]
     rows = _row("expected", write(verdict.expected)) + _row("got", write(verdict.got))
     if verdict.complaint:
@@ -61,19 +68,42 @@ def _what_came(outcome):
     return rows
 
 
+def words_of(failure):
+    """A Failure in one line."""
+    raised = failure.kind not in NOT_RAISED
+    return f"{failure.kind}: {failure.message}" if raised else failure.message
+
+
 def likely_cause(result):
     """The first cause that looks like every failing case; else what the check says for want of a better."""
     check = result.check
     failing = [outcome for outcome in result.outcomes if not outcome.verdict.passed]
     if isinstance(failing[0].verdict.got, Failure):
-        return _cause_of_failure(failing[0].verdict.got, check)
+        failure = failing[0].verdict.got
+        alike = [one for one in failing if getattr(one.verdict.got, "message", None) == failure.message]
+        known = _known_cause(check, alike) if failure.value is not None else None
+        return known or _built_on(result) or _cause_of_failure(failure, check)
     failing = [outcome for outcome in failing if not isinstance(outcome.verdict.got, Failure)]
     if failing[0].verdict.complaint:
         return f"The answer is not of the kind asked for. It must be {check.form}."
+    return _built_on(result) or _known_cause(check, failing) or check.hint
+
+
+def _built_on(result):
+    """Where checks before this one fail, on whose functions it builds: those first."""
+    if not result.broken:
+        return None
+    name, broken = result.check.function or result.check.name, " and ".join(result.broken)
+    if len(result.broken) == 1:
+        return f"{broken} fails its own check, and {name} builds on it: mend that first."
+    return f"{broken} fail their own checks, and {name} builds on them: mend those first."
+
+
+def _known_cause(check, failing):
     for cause in check.causes:
         if all(_matches(cause, outcome) for outcome in failing):
             return cause.text
-    return check.hint
+    return None
 
 
 def _matches(cause, outcome):
@@ -84,8 +114,22 @@ def _matches(cause, outcome):
 
 
 def _cause_of_failure(failure, check):
-    if failure.kind == "answer":
+    if failure.kind == "answer" and failure.value is None:
         return f"The function is not there, or its answer is not {check.form}."
+    if failure.kind == "answer" and "NaN" in failure.message:
+        return (
+            "nan (not a number) comes of 0/0, of inf − inf, or of the root of a negative number. Is "
+            "something divided by a length that is 0 here? Write the formula without that division."
+        )
+    if failure.kind == "answer" and "inf" in failure.message.split():
+        return "inf comes of a division by 0, or of numbers that grow without bound."
+    if failure.kind == "answer":
+        return f"The answer is not {check.form}."
+    if failure.kind == "in place":
+        return (
+            "On an array, `+=`, `-=`, `*=` and `y[0] = …` write into the very array that the caller holds. "
+            "`y = y + …` makes a new one, and so does y.copy()."
+        )
     if failure.kind == "no answer":
         return "A loop that does not end, or far too many steps."
     if failure.kind == "NameError":

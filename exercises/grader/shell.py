@@ -8,6 +8,7 @@ PATH is a notebook, or a script with cells. All its code cells run in a fresh Py
 
 import argparse
 import json
+import re
 import sys
 import traceback
 from pathlib import Path
@@ -15,8 +16,9 @@ from pathlib import Path
 import exercises
 from exercises.grader.cells import read_cells
 from exercises.grader.check import SELF_STUDY_SEED, Unrecorded
-from exercises.grader.marking import mark
+from exercises.grader.marking import mark_in_turn
 from exercises.grader.notebook import page
+from exercises.grader.replies import Student
 from exercises.grader.report import report, total
 from exercises.grader.student import StudentProcess
 
@@ -36,7 +38,7 @@ def main(arguments=None):
         results, troubles = check_cells(
             unit, cells, options.path.resolve().parent, options.seed, options.limit
         )
-    except Unrecorded as error:
+    except (Unrecorded, NotTheExercise) as error:
         print(error, file=sys.stderr)
         return 2
     except Exception:
@@ -56,12 +58,33 @@ def check_cells(unit, cells, folder, seed=SELF_STUDY_SEED, limit=60.0, show=prin
     student = StudentProcess(unit, cells, folder, limit)
     try:
         results = []
-        for check in exercises.part(unit, "checks").CHECKS:
-            results.append(mark(check, student.ask, seed))
-            show(report(results[-1], page(unit)))
+        checks = exercises.part(unit, "checks").CHECKS
+        _require_a_copy(unit, functions_of(checks), cells, student)
+        for result in mark_in_turn(checks, student.ask, seed):
+            results.append(result)
+            show(report(result, page(unit)))
         return results, student.troubles
     finally:
         student.close()
+
+
+class NotTheExercise(ValueError):
+    """The file may be a notebook, but it is another one."""
+
+
+def functions_of(checks):
+    """The names of the functions that the checks ask for, in order."""
+    calls = [call for check in checks for case in check.visible for call in check.calls_of(case)]
+    handed = [one.name for call in calls for one in call.arguments if isinstance(one, Student)]
+    return list(dict.fromkeys([call.function for call in calls] + handed))
+
+
+def _require_a_copy(unit, names, cells, student):
+    """Some function is there, or at least begun: a cell with a slip in it may define none."""
+    begun = re.compile(rf"\bdef +(?:{'|'.join(map(re.escape, names))})\b")
+    if not any(begun.search(cell) for cell in cells) and not student.defines_any(names):
+        number, listed = unit.split("_")[0], ", ".join(names)
+        raise NotTheExercise(f"This is not a copy of exercise {number}: none of its cells defines {listed}.")
 
 
 def summarise(unit, results):

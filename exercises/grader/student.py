@@ -41,6 +41,16 @@ class StudentProcess:
             error = {"error": {"kind": "no answer", "message": str(reason), "lines": []}}
             return json.dumps({"replies": [error] * len(json.loads(text)["calls"])})
 
+    def defines_any(self, names):
+        """Is one of these names a function there?"""
+        source = f"if not any(callable(globals().get(name)) for name in {list(names)!r}): raise LookupError"
+        try:
+            error = json.loads(self._exchange(json.dumps({"cell": source, "name": "names"})))["error"]
+        except Gone:
+            self._start()
+            return True
+        return not error or error["kind"] != "LookupError"
+
     def close(self):
         self.process.kill()
         self.process.wait()

@@ -6,10 +6,13 @@ Request and response are one line of JSON text each:
     {"replies": [{"value": ...} or {"error": {"kind", "message", "lines"}}, ...]}      perhaps with "printed"
 
 Each call has its own fresh copies of the arguments, since they are read from the text anew, and random
-generators set to the same state: no call can spoil another.
+generators set to the same state: no call can spoil another. A function that writes into an array it was
+handed is refused: here nothing comes of it, but in a run of the student's own it spoils what its caller
+holds.
 """
 
 import contextlib
+import inspect
 import io
 import json
 import random
@@ -27,6 +30,7 @@ OWN_FOLDER = str(Path(__file__).resolve().parent)
 LIBRARIES = tuple(
     {str(Path(sysconfig.get_path(name)).resolve()) for name in ("stdlib", "purelib", "platlib")}
 )
+IN_PLACE = "in place"  # the kind of error of a call that changed its arguments
 MOST_PRINTED = 400  # characters of what a function printed that go into a report
 
 
@@ -52,6 +56,12 @@ class Worker:
             np.random.seed(number)  # noqa: NPY002 (students may use the old one)
             with _quiet(printed):
                 reply = {"value": pack(function(*arguments))}
+            changed = self._changed(call, arguments)
+            if changed is not None:
+                message = _told_in_place(
+                    call["function"], _name_of(function, changed), self._helpers(function, arguments)
+                )
+                reply = {"error": {"kind": IN_PLACE, "message": message, "lines": []}}
         except KeyboardInterrupt:
             raise  # the student pressed Stop: that ends the check
         except BadReply as error:
@@ -61,6 +71,24 @@ class Worker:
         if printed.getvalue():
             reply["printed"] = printed.getvalue()[:MOST_PRINTED]
         return reply
+
+    def _changed(self, call, arguments):
+        """The position of the first argument of which an array is not as it was handed in, or None."""
+        for position, (argument, data) in enumerate(zip(arguments, call["arguments"], strict=True)):
+            if _may_change(data) and not _same_arrays(argument, unpack(data, self._resolve)):
+                return position
+        return None
+
+    def _helpers(self, function, arguments):
+        """Names of the student's other functions that this one uses or is handed: one of them may be the
+        culprit."""
+        own = {name: value for name, value in self.namespace.items() if _code_of(value) is not None}
+        used = set(_names_in(_code_of(function)))
+        return [
+            name
+            for name, value in own.items()
+            if value is not function and (name in used or any(value is argument for argument in arguments))
+        ]
 
     def _resolve(self, data):
         if "student" in data:
@@ -75,6 +103,55 @@ class Worker:
             )
             raise BadReply(f"{name} {state}: run (or mend) the cell that defines it")
         return function
+
+
+def _may_change(data):
+    """Is this an array, or does it hold one? Helpers of given.py are none of a student's to change."""
+    if not isinstance(data, dict):
+        return False
+    return "array" in data or any(
+        map(_may_change, data.get("tuple", [item for _, item in data.get("dict", [])]))
+    )
+
+
+def _same_arrays(after, before):
+    if isinstance(before, np.ndarray):
+        return np.array_equal(after, before, equal_nan=True)
+    if isinstance(before, tuple):
+        return all(_same_arrays(*pair) for pair in zip(after, before, strict=True))
+    if isinstance(before, dict):
+        return all(_same_arrays(after.get(key, item), item) for key, item in before.items())
+    return True
+
+
+def _code_of(function):
+    """The code of a Python function, also of one that Numba has compiled; None of other things."""
+    return getattr(getattr(function, "py_func", function), "__code__", None)
+
+
+def _names_in(code):
+    """The names that a code uses, also in the functions that are defined inside it."""
+    if code is not None:
+        yield from code.co_names
+        for constant in code.co_consts:
+            if inspect.iscode(constant):
+                yield from _names_in(constant)
+
+
+def _name_of(function, position):
+    try:
+        return list(inspect.signature(getattr(function, "py_func", function)).parameters)[position]
+    except (TypeError, ValueError, IndexError):  # it takes *arguments, or does not tell what it takes
+        return f"number {position + 1}"
+
+
+def _told_in_place(function, argument, helpers):
+    who = f"{function} (or {', '.join(helpers[:4])}, which it uses)" if helpers else function
+    name = argument if argument.isidentifier() else "x"
+    return (
+        f"{who} changes its argument `{argument}` in place (as `{name} += …` does): write "
+        f"`{name} = {name} + …`, so that who calls it keeps their own {name}."
+    )
 
 
 @contextlib.contextmanager

@@ -11,6 +11,7 @@ from hypothesis.extra.numpy import arrays
 
 from exercises.grader.judges import (
     all_of,
+    an_array,
     bound,
     difference,
     equal,
@@ -106,6 +107,14 @@ def test_equal_is_generous_with_containers_of_numbers():
     assert judged(equal(always(np.array([1.0, 2.0])), 1e-12), (1, 2.0)).passed
     assert judged(equal(always((1.0, 2.0)), 1e-12), np.array([1.0, 2.0])).passed
     assert judged(equal(always(np.eye(2)), 1e-12), scipy.sparse.coo_array(np.eye(2))).passed
+
+
+def test_an_array_where_other_functions_go_on_to_use_it():
+    judge = an_array(equal(always(np.eye(2)), 1e-12))
+    assert judged(judge, np.eye(2)).passed and not judged(judge, 2 * np.eye(2)).passed
+    verdict = judged(judge, (np.array([1.0, 0.0]), np.array([0.0, 1.0])))
+    assert not verdict.passed and "is a list" in verdict.complaint and "shape (2, 2)" in verdict.complaint
+    assert judged(an_array(equal(always((1.0, 2.0)), 1e-12)), (1.0, 2.0)).passed
 
 
 @given(arrays("f8", 3, elements=st.floats(-1e3, 1e3)), st.floats(1e-6, 1e3))

@@ -64,6 +64,19 @@ def test_an_unknown_unit_is_2():
     assert done.returncode == 2 and "unit '77' has no exercise here; there is: 02_" in done.stderr
 
 
+def test_another_notebook_is_2_and_one_line(tmp_path):
+    cells = ["import math", "plate = 3\nx = plate", "def other(): pass", "1/0"]
+    done = run("--unit", "02", notebook_of(cells, tmp_path / "teaching.ipynb"))
+    assert done.returncode == 2 and done.stdout == "", done.stdout
+    assert done.stderr.startswith("This is not a copy of exercise 02: ") and done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize("cell", ["def plate(\n", "plate = lambda *all: None", "1/0\ndef plate(): pass"])
+def test_a_function_begun_is_enough(tmp_path, cell):
+    done = run("--unit", "02", notebook_of(["x = 1", cell], tmp_path / "mine.ipynb"))
+    assert done.returncode == 1 and "not a copy" not in done.stderr
+
+
 def test_our_own_fault_is_2(monkeypatch, capsys):
     monkeypatch.setattr(shell, "check_cells", lambda *arguments: 1 / 0)
     assert shell.main(["--unit", "02", str(SOLUTION)]) == 2

@@ -1,6 +1,7 @@
 # ruff: noqa: NPY002 (the old global generator is one of the things tested)
 """The student's side: fresh copies, fixed generators, and errors that stay inside one call."""
 
+import dataclasses
 import json
 import math
 import random
@@ -10,8 +11,8 @@ import numpy as np
 import pytest
 
 from exercises.grader.check import Call, Case, Check
-from exercises.grader.judges import equal
-from exercises.grader.marking import Failure, mark
+from exercises.grader.judges import equal, on_answer
+from exercises.grader.marking import Failure, mark, mark_all
 from exercises.grader.replies import Given, Reply, Student
 from exercises.grader.report import report
 from exercises.grader.worker import Worker
@@ -53,12 +54,82 @@ def test_one_wrong_case_earns_nothing():
 
 
 def test_each_call_has_fresh_copies():
-    def spoil(array, mapping):
-        array += 1
+    def spoil(mapping):
         mapping["a"] = mapping.get("a", 0) + 1
-        return array[0] * mapping["a"]
+        return mapping["a"]
 
-    assert result_of(spoil, np.zeros(2), {"a": 0}, cases=5).passed
+    assert result_of(spoil, {"a": 0}, cases=5).passed
+
+
+def add(y, other):
+    y += 1
+    return 1.0
+
+
+def add_inside(pair):
+    pair[1]["a"][:] = math.nan
+    return 1.0
+
+
+def sort(y):
+    y.sort()
+    return 1.0
+
+
+def step_of(g, y):
+    g(y, 0.0)
+    return 1.0
+
+
+def leave(y, pair):
+    y = y + 1
+    y += 1
+    pair = (pair[0].copy(), *pair[1:])
+    pair[0][:] = 0
+    return 1.0
+
+
+@pytest.mark.parametrize(
+    "function, arguments, words",
+    [
+        (add, (np.zeros(2), 0.0), "f changes its argument `y` in place"),
+        (add_inside, ((1, {"a": np.zeros(2)}),), "f changes its argument `pair` in place"),
+        (sort, (np.array([2, 1]),), "f changes its argument `y` in place"),
+        (step_of, (Student("g"), np.zeros(2)), "f (or g, which it uses) changes its argument `y` in place"),
+        (lambda *all: add(*all), (np.zeros(2), 0.0), "f changes its argument `all` in place"),
+    ],
+)
+def test_changing_an_array_that_was_handed_in_is_refused_and_told(function, arguments, words):
+    check = check_of(None, calls=lambda v: [Call("f", arguments)])
+    result = mark(check, Worker({"f": function, "g": add}, GIVEN).answer)
+    assert result.earned == 0 and result.outcomes[0].verdict.got.kind == "in place"
+    text = " ".join(report(result, "page").split())
+    assert words in text and "expected 1" in text and "makes a new one" in text
+
+
+def test_new_arrays_may_be_changed():
+    assert result_of(leave, np.array([1.0, math.nan]), (np.zeros(2), math.inf)).passed
+
+
+def test_nan_is_shown_beside_what_was_expected():
+    text = report(result_of(lambda: np.array([1.0, math.nan]), expected=np.array([1.0, 2.0])), "page")
+    assert "[1. 2.]" in text and "nan]" in text and "0/0" in text and "not there" not in text
+
+
+def test_a_check_is_told_which_of_those_before_it_fail():
+    first = dataclasses.replace(check_of(None, calls=lambda v: [Call("g", ())]), name="g")
+    second = dataclasses.replace(check_of(None, calls=lambda v: [Call("f", ())]), after=("g",))
+    worker = Worker({"f": lambda: 3.0, "g": lambda: 2.0}, GIVEN)
+    assert "g fails its own check" in report(mark_all([first, second], worker.answer)[1], "page")
+    worker.namespace["g"] = lambda: 1.0
+    assert "nothing known" in report(mark_all([first, second], worker.answer)[1], "page")
+
+
+def test_the_calls_that_the_verdict_is_about_are_shown():
+    check = check_of(None, calls=lambda v: [Call("f", (1.0,)), Call("f", (2.0,))])
+    check = dataclasses.replace(check, judge=on_answer(1, check.judge))
+    text = report(mark(check, Worker({"f": lambda x: x}, GIVEN).answer), "page")
+    assert "f(2.0)" in text and "f(1.0)" not in text
 
 
 def test_given_arguments_are_made_afresh():

@@ -1,6 +1,6 @@
 # Mistake: the gyroscopic term is forgotten.
 # Loses: gyrostat_rate, flip_time
-# Says: gyrostat_rate: gyroscopic term Ω × (I Ω + h) is missing
+# Says: gyrostat_rate: gyroscopic term Ω × (I Ω + h_w) is missing
 # ruff: noqa: F821 (names that are not defined here are solution_a's)
 
 # %%

@@ -1,6 +1,7 @@
 # Mistake: the third slope forgets its part −dt k1.
 # Loses: kutta_step, march, flip_time
 # Says: kutta_step: part −dt k1 is missing
+# Says: flip_time: kutta_step and march fail their own checks
 
 
 # %%

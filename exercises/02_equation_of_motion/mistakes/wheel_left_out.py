@@ -1,6 +1,7 @@
 # Mistake: the wheel's angular momentum does not take part in the gyroscopic term.
 # Loses: gyrostat_rate, flip_time
-# Says: gyrostat_rate: wheel's angular momentum h is missing
+# Says: gyrostat_rate: wheel's angular momentum h_w is missing
+# Says: flip_time: gyrostat_rate fails its own check
 # ruff: noqa: F821 (names that are not defined here are solution_a's)
 
 # %%

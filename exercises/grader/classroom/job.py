@@ -19,7 +19,7 @@ from exercises.grader.classroom import workers
 from exercises.grader.classroom.cases import check_hash, with_cases
 from exercises.grader.classroom.files import line, printable
 from exercises.grader.classroom.told import told
-from exercises.grader.marking import mark
+from exercises.grader.marking import mark_in_turn
 
 STATUSES = ("ok", "rejected", "timeout", "crashed", "unsandboxed", "missing", "grader_error")
 MOST_TROUBLES = 30
@@ -72,7 +72,7 @@ def _grade(job):
         notebook = base64.b64decode(job["notebook"])
         box.load(notebook)
         rejected = box.status == "rejected"
-        marked = [nothing(check) if rejected else told(mark(check, box.ask)) for check in checks]
+        marked = list(map(nothing, checks) if rejected else map(told, mark_in_turn(checks, box.ask)))
         return {
             "status": box.status,
             "reason": line(box.reason, 500),

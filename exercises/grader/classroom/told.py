@@ -8,7 +8,7 @@ import numpy as np
 
 from exercises.grader.classroom.files import line, printable
 from exercises.grader.marking import Failure
-from exercises.grader.report import likely_cause, write, write_call
+from exercises.grader.report import calls_to_show, likely_cause, words_of, write, write_call
 
 LONGEST_ANSWER = 1500  # characters of an expected or returned value
 MOST_POINTS, LEAST_POINTS, MOST_CURVES = 200, 8, 3
@@ -49,21 +49,28 @@ def _failure(result, failing):
 def _hidden(outcome):
     verdict = outcome.verdict
     if isinstance(verdict.got, Failure):
-        kinds = {"answer": "the answer is not of the kind asked for", "no answer": "no answer came in time"}
+        kinds = {
+            "answer": "the answer is not of the kind asked for",
+            "no answer": "no answer came in time",
+            "in place": "the function changes an argument in place",
+        }
         return {"got": kinds.get(verdict.got.kind, "the function raised an error")}
     return {"tolerance": f"{verdict.tolerance:.3g}"}
 
 
 def _visible(outcome):
     verdict = outcome.verdict
-    rows = {"call": "\n".join(write_call(call) for call in outcome.calls[:1])}
+    rows = {"call": "\n".join(write_call(call) for call in calls_to_show(outcome))}
     if outcome.printed:
         rows["printed"] = printable(outcome.printed, 400)
     if isinstance(verdict.got, Failure):
         failure = verdict.got
-        raised = failure.kind not in ("answer", "no answer")
-        message = f"{failure.kind}: {failure.message}" if raised else failure.message
-        return {**rows, "got": line(message, 600), "lines": [line(text) for text in failure.lines[:4]]}
+        if verdict.expected is not None:
+            rows["expected"] = _written(verdict.expected)
+        lines = [line(text) for text in failure.lines[:4]]
+        if failure.value is not None:
+            lines.append(line(_written(failure.value), 600))
+        return {**rows, "got": line(words_of(failure), 600), "lines": lines}
     rows.update(expected=_written(verdict.expected), got=_written(verdict.got))
     rows["tolerance"] = f"{verdict.tolerance:.3g}"
     if verdict.complaint:
