@@ -1,6 +1,11 @@
-"""For all tests: one thread for linear algebra, and pictures that need no screen."""
+"""For all tests: one thread for linear algebra, pictures that need no screen, Ctrl-C that works."""
 
 import os
+import signal
+
+# A shell starts what it runs in the background with Ctrl-C ignored, and children inherit that.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 # Before NumPy is first imported: threads would make timings depend on what else the machine does.
 for name in ("OMP", "OPENBLAS", "MKL", "BLIS", "VECLIB_MAXIMUM"):
