@@ -126,7 +126,10 @@ def _same_arrays(after, before):
 
 def _code_of(function):
     """The code of a Python function, also of one that Numba has compiled; None of other things."""
-    return getattr(getattr(function, "py_func", function), "__code__", None)
+    try:
+        return getattr(getattr(function, "py_func", function), "__code__", None)
+    except Exception:  # a name of an absent package raises, whatever is asked of it
+        return None
 
 
 def _names_in(code):

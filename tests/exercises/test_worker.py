@@ -10,6 +10,7 @@ import types
 import numpy as np
 import pytest
 
+from exercises.grader import absent
 from exercises.grader.check import Call, Case, Check
 from exercises.grader.judges import equal, on_answer
 from exercises.grader.marking import Failure, mark, mark_all
@@ -101,7 +102,8 @@ def leave(y, pair):
 )
 def test_changing_an_array_that_was_handed_in_is_refused_and_told(function, arguments, words):
     check = check_of(None, calls=lambda v: [Call("f", arguments)])
-    result = mark(check, Worker({"f": function, "g": add}, GIVEN).answer)
+    names = {"f": function, "g": add, "np": np, "absent": absent._Use("reference.rk4")}
+    result = mark(check, Worker(names, GIVEN).answer)
     assert result.earned == 0 and result.outcomes[0].verdict.got.kind == "in place"
     text = " ".join(report(result, "page").split())
     assert words in text and "expected 1" in text and "makes a new one" in text
