@@ -22,7 +22,7 @@ def fingerprints(folder):
     }
 
 
-@pytest.mark.slow
+@pytest.mark.study
 def test_the_corpus_as_a_class(tmp_path, monkeypatch):
     if probe().kind is None:
         pytest.skip(probe().sentence())

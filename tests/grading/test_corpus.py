@@ -40,8 +40,8 @@ BEST = isolation.probe().kind
 def runs():
     for kind in KINDS:
         for submission in HOSTILE + HONEST:
-            whole = kind == BEST or submission.name in TELLING
-            marks = [] if whole else [pytest.mark.slow]
+            daily = kind == BEST and submission.name in TELLING
+            marks = [] if daily else [pytest.mark.study]
             yield pytest.param(kind, submission, marks=marks, id=f"{kind}-{submission.name}")
 
 
