@@ -1,7 +1,7 @@
 """Every hostile submission earns nothing and reaches nothing, every honest one earns what it should.
 
 In the best isolation that works here the whole corpus runs; in the others the attacks that depend on the
-kind, and, with `-m slow`, all.
+kind, and, with `-m study`, all.
 """
 
 import os
