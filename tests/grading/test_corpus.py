@@ -1,7 +1,7 @@
 """Every hostile submission earns nothing and reaches nothing, every honest one earns what it should.
 
-In the best isolation that works here the whole corpus runs; in the others the attacks that depend on the
-kind, and, with `-m study`, all.
+Daily, the attacks that tell most run in the best isolation that works here; with `-m study` the whole corpus
+does, in every kind that works.
 """
 
 import os
