@@ -86,8 +86,9 @@ def wheels(tmp_path):
 
 
 @pytest.fixture
-def course(folder):
+def course(folder, monkeypatch):
     """The small course's course.py, as a module."""
+    monkeypatch.delenv("COURSE_PYTHON", raising=False)  # whoever runs the tests may have set it
     spec = importlib.util.spec_from_file_location("course_under_test", folder / "course.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
