@@ -1,6 +1,5 @@
 """A real Dask cluster: a scheduler and two workers, one of them killed half way."""
 
-import importlib.util
 import json
 import os
 import signal
@@ -20,7 +19,6 @@ from reference import bench, cluster
 from tests.grading.class_support import UNIT, grade, plant, solution
 
 ROOT = exercises.FOLDER.parent
-NO_DASK = importlib.util.find_spec("distributed") is None
 
 
 @pytest.mark.parametrize(
@@ -91,7 +89,6 @@ def free_port():
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(NO_DASK, reason="dask is not installed here")
 def test_a_killed_worker_loses_nothing(tmp_path, processes, monkeypatch):
     plant(tmp_path, {f"student{i:02}": solution(i % 2) for i in range(16)})
     port = free_port()
@@ -121,7 +118,6 @@ def test_a_killed_worker_loses_nothing(tmp_path, processes, monkeypatch):
     assert not (tmp_path / "instructor/history.jsonl").exists()  # no result was written twice
 
 
-@pytest.mark.skipif(NO_DASK, reason="dask is not installed here")
 def test_a_scheduler_that_is_not_there(monkeypatch):
     monkeypatch.setattr(cluster, "PATIENCE", 1.0)
     with pytest.raises(Trouble, match="does not answer"):
@@ -134,7 +130,6 @@ def test_dask_is_pinned():
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(NO_DASK, reason="dask is not installed here")
 def test_the_benchmark_on_a_cluster(tmp_path, processes):
     port = free_port()
     address = f"tcp://127.0.0.1:{port}"
