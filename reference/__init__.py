@@ -6,22 +6,29 @@ way: scene → bodies → forces → step → trajectory → measure → picture
 Slides S3–S18; lectures/index.md.
 """
 
+from .joints import BallJoint, Distance, Fixed, Hinge, Slider, Universal
 from .scene import Scene, Unsupported
 from .shapes import Box, Capsule, Disc, Plane, Point, Polygon, Sphere
 from .simulators import Simulation, model, simulate
 from .trajectory import Trajectory
 
 __all__ = [
+    "BallJoint",
     "Box",
     "Capsule",
     "Disc",
+    "Distance",
+    "Fixed",
+    "Hinge",
     "Plane",
     "Point",
     "Polygon",
     "Scene",
     "Simulation",
+    "Slider",
     "Sphere",
     "Trajectory",
+    "Universal",
     "Unsupported",
     "model",
     "simulate",

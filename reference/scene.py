@@ -14,6 +14,7 @@ import numpy as np
 from . import inputs
 from .declared import Body, Pair, Spring
 from .inertia import checked_inertia
+from .joints import JOINTS
 from .shapes import SHAPES, Plane, Point
 
 
@@ -29,7 +30,7 @@ class Scene:
             raise ValueError(f"gravity must have 2 or 3 components, m/s², but is {gravity!r}")
         self.dimension = int(np.size(gravity))
         self.gravity = inputs.array("gravity", gravity, (self.dimension,))
-        self.bodies, self.springs, self.drags, self.pairs = [], [], {}, {}
+        self.bodies, self.joints, self.springs, self.drags, self.pairs = [], [], [], {}, {}
         self.gravitation = 0.0
         self.user_forces = []
 
@@ -159,12 +160,41 @@ class Scene:
             raise TypeError(f"f must be a function f(t, state), but is {f!r}")
         self.user_forces.append(f)
 
+    def join(self, joint):
+        """Join two bodies, or one to the world: BallJoint, Hinge, Slider, Fixed, Universal or Distance.
+
+        Returns the joint's number; ``scene.joints`` holds the joints, their arguments checked and filled in.
+        Raises TypeError and ValueError, which name the argument, its value and what would be right.
+        """
+        if not isinstance(joint, JOINTS):
+            names = ", ".join(kind.__name__ for kind in JOINTS)
+            raise TypeError(f"joint must be one of {names}, but is {joint!r}")
+        a, b = self._number("a", joint.a), None if joint.b is None else self._number("b", joint.b)
+        if a == b:
+            raise ValueError(f"b must be another body than a, or None, the world, but both are {a}")
+        if all(i is None or self.bodies[i].static for i in (a, b)):
+            raise ValueError(
+                f"a must be a body that can move, or b one, but a is {a} and b is {b!r}, both static"
+            )
+        joint = replace(joint, a=a, b=b, collide=bool(joint.collide))
+        self.joints.append(joint.checked(self.bodies, self.dimension))
+        return len(self.joints) - 1
+
     def colliding_pairs(self):
-        """The pairs (i, j), i < j, that could ever touch: no points, not one group, not both static, …"""
+        """The pairs (i, j), i < j, that could ever touch: no points, not one group, not joined, …"""
+        joined = {
+            (min(joint.ends), max(joint.ends))
+            for joint in self.joints
+            if joint.b is not None and not joint.collide
+        }
         solid = [i for i, body in enumerate(self.bodies) if not isinstance(body.shape, Point)]
+        if len({self.bodies[i].group for i in solid}) == 1 and self.bodies[solid[0]].group is not None:
+            return  # all in one group: no need to look at each pair
         for i, j in combinations(solid, 2):
             a, b = self.bodies[i], self.bodies[j]
-            apart = (a.static and b.static) or (a.group is not None and a.group == b.group)
+            apart = (
+                (a.static and b.static) or (a.group is not None and a.group == b.group) or (i, j) in joined
+            )
             if not apart and self.pairs.get((i, j), Pair()).collide:
                 yield i, j
 
