@@ -91,23 +91,30 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
         λ[:] = 0
         return u, 0, 0.0
     add_impulses(rows, M, λ, u)
-    ε, error = NEAR, np.inf
+    answer = np.zeros((blocks, 2))
+    if coulomb:
+        evaluate(rows, M, free, λ, np.ones(blocks), shift, u, out)
+        renew_shift(rows, out.w, λ, shift, answer)
+        answer[:, 0], answer[:, 1] = np.inf, 0.0
+    ε, error, drift = NEAR, np.inf, np.inf
     for passes in range(max_iterations):
         for q in range(blocks):
             ρ[q] = 1 / (ε * size[q])
         solve_smooth(rows, M, free, λ, ρ, shift, factor, u, 0.1 * tolerance * scale, out, trial)
-        before, error = error, renew(rows, coulomb, out, λ, ρ, shift) / scale
+        before, drift = drift, renew(rows, out, λ, ρ) / scale
+        shifted = renew_shift(rows, out.w, λ, shift, answer) / scale if coulomb else 0.0
+        error = max(drift, shifted)
         if passes < len(history):
             history[passes] = error
         if error <= tolerance:
             return u, passes + 1, error
-        if error > 0.25 * before and ε > SMALLEST:
+        if drift > max(0.25 * before, shifted) and ε > SMALLEST:
             ε *= 0.01
             factor.made[:] = -1
     return u, max_iterations, error
 
 
-@compiled
+@compiled(inline=False)
 def block_sizes(rows, M, free, size):
     """A's largest diagonal entry of each block; returns the worst |w| of the free velocities."""
     scale = 0.0
@@ -163,7 +170,7 @@ def over_mass(M, a):
     return (a[0] ** 2 + a[1] ** 2 + a[2] ** 2) / M[0, 0] + turning / determinant
 
 
-@compiled
+@compiled(inline=False)
 def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial):
     """Newton's method for one pass, with step halving: u in place, and what ``evaluate`` finds there into out."""
     value = evaluate(rows, M, free, λ, ρ, shift, u, out)
@@ -213,7 +220,7 @@ def worst_rate(M, gradient):
     return worst
 
 
-@compiled
+@compiled(inline=False)
 def evaluate(rows, M, free, λ, ρ, shift, u, out):
     """The augmented Lagrangian at u, with λ̂, P′ and the gradient into ``out``."""
     value, k = 0.0, u.shape[1]
@@ -299,7 +306,7 @@ def put_slope(slope, r, a, b, c):
     slope[r, 0], slope[r, 1], slope[r, 2] = a, b, c
 
 
-@compiled
+@compiled(inline=False)
 def fill_matrix(rows, M, ρ, out, factor):
     """M + ρ Jᵀ P′ J, block by block."""
     k, envelope, L = M.shape[1], factor.envelope, factor.L
@@ -331,19 +338,37 @@ def fill_matrix(rows, M, ρ, out, factor):
 
 
 @compiled
-def renew(rows, coulomb, out, λ, ρ, shift):
-    """λ ← λ̂, and the shift that makes the law Coulomb's. Returns the worst change, as a velocity."""
+def renew(rows, out, λ, ρ):
+    """λ ← λ̂. Returns the worst change, as a velocity."""
     worst = 0.0
-    for q in range(len(rows.μ)):
-        first, end = rows.block[q], rows.block[q + 1]
-        for r in range(first, end):
+    for q in range(len(ρ)):
+        for r in range(rows.block[q], rows.block[q + 1]):
             worst = max(worst, abs(out.λ[r] - λ[r]) / ρ[q])
             λ[r] = out.λ[r]
-        if coulomb and rows.μ[q] > 0:
-            along = 0.0
-            for r in range(first + 1, end):
-                along += out.w[r] ** 2
-            new = rows.μ[q] * np.sqrt(along) if λ[first] > 0 else 0.0
-            worst = max(worst, abs(new - shift[q]))
-            shift[q] = new
     return worst
+
+
+@compiled
+def renew_shift(rows, w, λ, shift, answer):
+    """The shift ← μ|w_t|, which makes the law Coulomb's. Returns the worst change, a velocity.
+
+    μ|w_t| answers to a change of the shift, by μ²/(1 + μ²) of it where A is a multiple of 1. ``answer`` (B, 2) holds each contact's shift and
+    μ|w_t| of the pass before; they tell by how much, and the shift goes where it answers to itself (the secant method).
+    """
+    worst = 0.0
+    for q in range(len(shift)):
+        first = rows.block[q]
+        if rows.μ[q] <= 0:
+            continue
+        along = 0.0
+        for r in range(first + 1, rows.block[q + 1]):
+            along += w[r] ** 2
+        new = rows.μ[q] * np.sqrt(along) if λ[first] > 0 else 0.0
+        change, changed = new - shift[q], shift[q] - answer[q, 0]
+        worst = max(worst, abs(change))
+        share = (new - answer[q, 1]) / changed if abs(changed) > 1e-12 * abs(new) else 0.0
+        answer[q, 0], answer[q, 1] = shift[q], new
+        shift[q] = max(0.0, shift[q] + change / (1 - min(max(share, -1.0), 0.8)))
+    return worst
+
+
