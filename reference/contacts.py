@@ -10,9 +10,45 @@ the velocity's condition: Anitescu & Potra, Nonlinear Dynamics 14 (1997) 231).
 
 import numpy as np
 
+from .collision import ContactArrays
 from .compiled import compiled
 from .lcp.cone_newton import ContactRows
 from .rotation import cross, quaternion, rotate
+
+
+def part(contacts, which):
+    """The ``ContactArrays`` of some: which, a slice or a mask (capacity,) or (m,)."""
+    arrays = [array[which] for array in contacts[1:]]
+    return ContactArrays(np.array([len(arrays[0])]), *arrays)
+
+
+def keys(contacts, n):
+    """One number for each contact (m,), the same from step to step: which of n bodies, and what of them."""
+    i, j = contacts.bodies[:, 0], contacts.bodies[:, 1]
+    return (i * n + j) * 2**32 + contacts.id
+
+
+def look_up(known, values, key):
+    """The values (m, d) that belong to these keys (m,); 0 for those that are not known (c,)."""
+    found = np.zeros((len(key), values.shape[1]))
+    if len(known):
+        order = np.argsort(known, kind="stable")
+        at = order[np.minimum(np.searchsorted(known[order], key), len(order) - 1)]
+        same = known[at] == key
+        found[same] = values[at[same]]
+    return found
+
+
+def spread(rows, λ, d):
+    """λ of all rows as (B, d): normal and tangents of each contact, 0 where it has no row."""
+    full = np.zeros((len(rows.μ), d))
+    full[tangents(rows, d)] = λ
+    return full
+
+
+def tangents(rows, d):
+    """(B, d): which of a contact's directions have rows."""
+    return np.arange(d) < np.diff(rows.block)[:, None]
 
 
 @compiled

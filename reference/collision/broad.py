@@ -100,9 +100,9 @@ def overlap(solids, a, b):
 def near_plane(solids, a, b):
     """Whether the ball that holds solid b, grown by the reach of both, comes to the plane a."""
     height = 0.0
-    for k in range(solids.x.shape[1]):
-        height += (solids.x[b, k] - solids.x[a, k]) * solids.axes[a, 0, k]
-    return height <= solids.radius[b] + solids.reach[a] + solids.reach[b]
+    for k in range(solids.form.x.shape[1]):
+        height += (solids.form.x[b, k] - solids.form.x[a, k]) * solids.form.axes[a, 0, k]
+    return height <= solids.form.radius[b] + solids.reach[a] + solids.reach[b]
 
 
 @compiled
@@ -198,12 +198,12 @@ def look_around(solids, grid, a, pairs, found):
         half, w = grid.half[level], width(level)
         if half == 0:
             continue
-        low, high = solids.low[a], solids.high[a]
-        x_low, x_high = math.floor((low[0] - half) / w), math.floor((high[0] + half) / w)
-        y_low, y_high = math.floor((low[1] - half) / w), math.floor((high[1] + half) / w)
+        low, high = solids.low, solids.high
+        x_low, x_high = math.floor((low[a, 0] - half) / w), math.floor((high[a, 0] + half) / w)
+        y_low, y_high = math.floor((low[a, 1] - half) / w), math.floor((high[a, 1] + half) / w)
         z_low, z_high = 0, 0
         if space:
-            z_low, z_high = math.floor((low[2] - half) / w), math.floor((high[2] + half) / w)
+            z_low, z_high = math.floor((low[a, 2] - half) / w), math.floor((high[a, 2] + half) / w)
         for x in range(x_low, x_high + 1):
             for y in range(y_low, y_high + 1):
                 for z in range(z_low, z_high + 1):

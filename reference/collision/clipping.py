@@ -18,7 +18,7 @@ import numpy as np
 
 from ..compiled import compiled
 from ..rotation import store, vector
-from .closest import SLOP, TIE, along, dot, minus, put, scaled, sign
+from .closest import SLOP, TIE, along, body_axis, dot, minus, put, scaled, sign
 
 _LEVEL = 1e-4  # of the face's size: depths that differ by less are equally deep, when four corners are chosen
 
@@ -30,24 +30,24 @@ def box_edge(k, edge):
 
 
 @compiled
-def face_contact(solids, a, b, face, n, limit, raw):
+def face_contact(forms, a, b, face, n, limit, raw):
     """(m, lowest): contacts of boxes a and b by a face (0–2 of a, 3–5 of b), n from a to b.
 
     m: 0 to 4, with gaps within the limit; lowest: the smallest height of any corner, inf if the faces don't meet.
     """
     r, o, k, turn = (a, b, face, 1.0) if face < 3 else (b, a, face - 3, -1.0)
     n_r = scaled(turn, n)
-    own = 1 if dot(vector(solids.axes[r], k), n_r) > 0 else 0  # which of the two faces along axis k
-    l = facing(solids, o, n_r)
-    other = 1 if dot(vector(solids.axes[o], l), n_r) < 0 else 0
-    outline_incident(solids, r, k, n_r, o, l, other, raw)
+    own = 1 if dot(body_axis(forms, r, k), n_r) > 0 else 0  # which of the two faces along axis k
+    l = facing(forms, o, n_r)
+    other = 1 if dot(body_axis(forms, o, l), n_r) < 0 else 0
+    outline_incident(forms, r, k, n_r, o, l, other, raw)
     size = min(
-        max(solids.size[r, (k + 1) % 3], solids.size[r, (k + 2) % 3]),
-        max(solids.size[o, (l + 1) % 3], solids.size[o, (l + 2) % 3]),
+        max(forms.size[r, (k + 1) % 3], forms.size[r, (k + 2) % 3]),
+        max(forms.size[o, (l + 1) % 3], forms.size[o, (l + 2) % 3]),
     )
     corners = 4
     for side in range(4):
-        corners = cut(raw, corners, side, solids.size[r, (k + 1 + side // 2) % 3], SLOP * size)
+        corners = cut(raw, corners, side, forms.size[r, (k + 1 + side // 2) % 3], SLOP * size)
         if corners == 0:
             return 0, np.inf
     lowest = np.inf
@@ -58,17 +58,17 @@ def face_contact(solids, a, b, face, n, limit, raw):
         if w <= limit and not repeated(raw, c, m, SLOP * size):
             before = raw.label[c - 1] if c > 0 else raw.label[corners - 1]
             feature_r, feature_o = features(before, raw.label[c], k, own, l, other)
-            raw.corner[m] = raw.corner[c]
+            copy_corner(raw.corner, c, raw.corner, m)
             raw.pick[m, 0], raw.pick[m, 1] = feature_r, feature_o
             m += 1
     if m > 4:
         choose_four(raw, m, size)
         m = 4
-    u_axis, v_axis = vector(solids.axes[r], (k + 1) % 3), vector(solids.axes[r], (k + 2) % 3)
+    u_axis, v_axis = body_axis(forms, r, (k + 1) % 3), body_axis(forms, r, (k + 2) % 3)
     for c in range(m):
         u, v, w = vector(raw.corner, c)
-        point = along(along(vector(solids.x, r), u, u_axis), v, v_axis)
-        point = along(point, solids.size[r, k] + 0.5 * w, n_r)
+        point = along(along(vector(forms.x, r), u, u_axis), v, v_axis)
+        point = along(point, forms.size[r, k] + 0.5 * w, n_r)
         feature_r, feature_o = raw.pick[c, 0], raw.pick[c, 1]
         if face < 3:
             put(raw, c, point, n, w, feature_r, feature_o)
@@ -78,28 +78,28 @@ def face_contact(solids, a, b, face, n, limit, raw):
 
 
 @compiled
-def facing(solids, o, n):
+def facing(forms, o, n):
     """The axis of box o that is most nearly parallel to n; of equals the first."""
     best = 0
     for k in range(1, 3):
-        lean = abs(dot(vector(solids.axes[o], k), n))
-        if lean > abs(dot(vector(solids.axes[o], best), n)) + TIE:
+        lean = abs(dot(body_axis(forms, o, k), n))
+        if lean > abs(dot(body_axis(forms, o, best), n)) + TIE:
             best = k
     return best
 
 
 @compiled
-def outline_incident(solids, r, k, n_r, o, l, other, raw):
+def outline_incident(forms, r, k, n_r, o, l, other, raw):
     """Fill raw.corner (4 rows) with the incident face's corners as (u, v, w), raw.label with its edges, 0–3."""
-    u_axis, v_axis = vector(solids.axes[r], (k + 1) % 3), vector(solids.axes[r], (k + 2) % 3)
+    u_axis, v_axis = body_axis(forms, r, (k + 1) % 3), body_axis(forms, r, (k + 2) % 3)
     l1, l2 = (l + 1) % 3, (l + 2) % 3
-    d = minus(vector(solids.x, o), vector(solids.x, r))
-    middle = along(d, (1.0 if other else -1.0) * solids.size[o, l], vector(solids.axes[o], l))
+    d = minus(vector(forms.x, o), vector(forms.x, r))
+    middle = along(d, (1.0 if other else -1.0) * forms.size[o, l], body_axis(forms, o, l))
     for c in range(4):
         s1, s2 = 1.0 if c == 0 or c == 3 else -1.0, 1.0 if c < 2 else -1.0
-        p = along(middle, s1 * solids.size[o, l1], vector(solids.axes[o], l1))
-        p = along(p, s2 * solids.size[o, l2], vector(solids.axes[o], l2))
-        store(raw.corner, c, (dot(p, u_axis), dot(p, v_axis), dot(p, n_r) - solids.size[r, k]))
+        p = along(middle, s1 * forms.size[o, l1], body_axis(forms, o, l1))
+        p = along(p, s2 * forms.size[o, l2], body_axis(forms, o, l2))
+        store(raw.corner, c, (dot(p, u_axis), dot(p, v_axis), dot(p, n_r) - forms.size[r, k]))
         raw.label[c] = c
 
 
@@ -109,27 +109,34 @@ def cut(raw, corners, side, extent, slop):
 
     raw.label[c]: the line from corner c to the next, 0–3 an incident edge, 4 + side a side.
     """
-    axis, s, kept = side // 2, 1.0 if side % 2 == 0 else -1.0, 0
+    along_k, s, kept = side // 2, 1.0 if side % 2 == 0 else -1.0, 0
     for c in range(corners):
         following = c + 1 if c + 1 < corners else 0
-        out, out_next = s * raw.corner[c, axis] - extent, s * raw.corner[following, axis] - extent
+        out, out_next = s * raw.corner[c, along_k] - extent, s * raw.corner[following, along_k] - extent
         inside, inside_next = out <= slop, out_next <= slop
         if inside:
-            raw.spare[kept] = raw.corner[c]
+            copy_corner(raw.corner, c, raw.spare, kept)
             if out > 0:
-                raw.spare[kept, axis] = s * extent
+                raw.spare[kept, along_k] = s * extent
             raw.spare_label[kept] = raw.label[c]
             kept += 1
         if inside != inside_next:
             part = out / (out - out_next)
             for i in range(3):
                 raw.spare[kept, i] = raw.corner[c, i] + part * (raw.corner[following, i] - raw.corner[c, i])
-            raw.spare[kept, axis] = s * extent
+            raw.spare[kept, along_k] = s * extent
             raw.spare_label[kept] = 4 + side if inside else raw.label[c]
             kept += 1
-    raw.corner[:kept] = raw.spare[:kept]
-    raw.label[:kept] = raw.spare_label[:kept]
+    for c in range(kept):
+        copy_corner(raw.spare, c, raw.corner, c)
+        raw.label[c] = raw.spare_label[c]
     return kept
+
+
+@compiled
+def copy_corner(a, i, b, j):
+    """Row i of a into row j of b."""
+    b[j, 0], b[j, 1], b[j, 2] = a[i, 0], a[i, 1], a[i, 2]
 
 
 @compiled

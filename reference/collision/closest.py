@@ -91,6 +91,12 @@ def closest_on_segments(p, a, q, b):
 
 
 @compiled
+def body_axis(forms, a, k):
+    """Axis k of solid a, world frame."""
+    return forms.axes[a, k, 0], forms.axes[a, k, 1], forms.axes[a, k, 2]
+
+
+@compiled
 def put(raw, k, point, n, gap, feature_a, feature_b):
     """Write contact k: the point half way between the surfaces, n from a to b, the gap, what touches what."""
     store(raw.point, k, point)

@@ -64,7 +64,12 @@ class Collider:
     def make_room(self, pairs, contacts):
         """Room for at least so many pairs and contacts; where it has to grow, it doubles. What was found is lost."""
         pairs = _doubled(len(self.arrays[2]) if self.arrays else 1, pairs)
-        self.arrays = (self.solids, self._grid, *(np.zeros((pairs, 2), dtype=int) for _ in range(2)), self._raw)
+        self.arrays = (
+            self.solids,
+            self._grid,
+            *(np.zeros((pairs, 2), dtype=int) for _ in range(2)),
+            self._raw,
+        )
         self.contacts = make_contacts(
             _doubled(len(self.contacts.gap) if self.contacts else 1, contacts), self.dimension
         )

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..compiled import bind, compiled
-from ..rotation import cross, store, vector
+from ..rotation import cross, vector
 from .boxes import box_ball, box_box, plane_box
 from .broad import find_pairs, row_of
 from .capsule_box import box_capsule
@@ -95,7 +95,7 @@ def make_raw(d):
 def detect(touch, write_frame, solids, grid, pairs, spare, raw, contacts, state, margin, h):
     """(pairs, contacts) that there are. More than there is room for: make room and call again.
 
-    touch(solids, a, b, limit, raw) → number of contacts of a pair in its order; write_frame(frame, n).
+    touch(kind, kind, forms, a, b, limit, raw) → number of contacts of a pair in its order; write_frame(frame, row, n, k).
     """
     place(solids, state, margin, h)
     found = find_pairs(solids, grid, pairs, spare)
@@ -107,7 +107,8 @@ def detect(touch, write_frame, solids, grid, pairs, spare, raw, contacts, state,
         a, b = pairs[p, 0], pairs[p, 1]
         swapped = not in_order(solids, a, b)
         first, second = (b, a) if swapped else (a, b)
-        m = touch(solids, first, second, solids.reach[a] + solids.reach[b], raw)
+        limit = solids.reach[a] + solids.reach[b]
+        m = touch(solids.kind[first], solids.kind[second], solids.form, first, second, limit, raw)
         if m == 0:
             continue
         if count + m <= len(contacts.gap):
@@ -127,67 +128,69 @@ def in_order(solids, a, b):
     """
     if solids.kind[a] != solids.kind[b]:
         return solids.kind[a] < solids.kind[b]
-    size_a, size_b = solids.radius[a], solids.radius[b]
+    size_a, size_b = solids.form.radius[a], solids.form.radius[b]
     if abs(size_a - size_b) > 1e-9 * size_a:
         return size_a > size_b
-    ahead = 0.36 * (solids.x[b, 0] - solids.x[a, 0]) + 0.82 * (solids.x[b, 1] - solids.x[a, 1])
-    if solids.x.shape[1] == 3:
-        ahead += 0.45 * (solids.x[b, 2] - solids.x[a, 2])
+    ahead = 0.36 * (solids.form.x[b, 0] - solids.form.x[a, 0]) + 0.82 * (
+        solids.form.x[b, 1] - solids.form.x[a, 1]
+    )
+    if solids.form.x.shape[1] == 3:
+        ahead += 0.45 * (solids.form.x[b, 2] - solids.form.x[a, 2])
     return ahead >= 0
 
 
 @compiled
-def touch_in_space(solids, a, b, limit, raw):
+def touch_in_space(kind_a, kind_b, forms, a, b, limit, raw):
     """The contacts of a pair in its order: the routine for its two kinds."""
-    kind_a, kind_b = solids.kind[a], solids.kind[b]
     if kind_a == PLANE:
         if kind_b == BALL:
-            return plane_ball(solids, a, b, limit, raw)
+            return plane_ball(forms, a, b, limit, raw)
         if kind_b == BOX:
-            return plane_box(solids, a, b, limit, raw)
-        return plane_capsule(solids, a, b, limit, raw)
+            return plane_box(forms, a, b, limit, raw)
+        return plane_capsule(forms, a, b, limit, raw)
     if kind_a == BALL:
-        return ball_ball(solids, a, b, limit, raw)
+        return ball_ball(forms, a, b, limit, raw)
     if kind_a == BOX:
         if kind_b == BOX:
-            return box_box(solids, a, b, limit, raw)
+            return box_box(forms, a, b, limit, raw)
         if kind_b == BALL:
-            return box_ball(solids, a, b, limit, raw)
-        return box_capsule(solids, a, b, limit, raw)
+            return box_ball(forms, a, b, limit, raw)
+        return box_capsule(forms, a, b, limit, raw)
     if kind_b == BALL:
-        return capsule_ball(solids, a, b, limit, raw)
-    return capsule_capsule(solids, a, b, limit, raw)
+        return capsule_ball(forms, a, b, limit, raw)
+    return capsule_capsule(forms, a, b, limit, raw)
 
 
 @compiled
-def touch_in_plane(solids, a, b, limit, raw):
+def touch_in_plane(kind_a, kind_b, forms, a, b, limit, raw):
     """The contacts of a pair in its order: the routine for its two kinds."""
-    kind_a, kind_b = solids.kind[a], solids.kind[b]
     if kind_a == PLANE:
         if kind_b == BALL:
-            return halfplane_point(solids, a, pair(solids.x, b), solids.size[b, 0], limit, raw, 0, 0)
-        return halfplane_polygon(solids, a, b, limit, raw)
+            return halfplane_point(forms, a, pair(forms.x, b), forms.size[b, 0], limit, raw, 0, 0)
+        return halfplane_polygon(forms, a, b, limit, raw)
     if kind_a == BALL:
-        return disc_disc(solids, a, b, limit, raw)
+        return disc_disc(forms, a, b, limit, raw)
     if kind_b == BALL:
-        return polygon_disc(solids, a, b, limit, raw)
-    return polygon_polygon(solids, a, b, limit, raw)
+        return polygon_disc(forms, a, b, limit, raw)
+    return polygon_polygon(forms, a, b, limit, raw)
 
 
 @compiled
-def frame_in_space(frame, n):
+def frame_in_space(frame, row, normal, k):
     """Rows n, t1 (see ``closest.tangent``), t2 = n × t1."""
-    n = (n[0], n[1], n[2])
+    n = vector(normal, k)
     t1 = tangent(n)
-    store(frame, 0, n)
-    store(frame, 1, t1)
-    store(frame, 2, cross(n, t1))
+    t2 = cross(n, t1)
+    frame[row, 0, 0], frame[row, 0, 1], frame[row, 0, 2] = n
+    frame[row, 1, 0], frame[row, 1, 1], frame[row, 1, 2] = t1
+    frame[row, 2, 0], frame[row, 2, 1], frame[row, 2, 2] = t2
 
 
 @compiled
-def frame_in_plane(frame, n):
+def frame_in_plane(frame, row, normal, k):
     """Rows n and t1, which is n turned by a quarter anticlockwise."""
-    frame[0, 0], frame[0, 1], frame[1, 0], frame[1, 1] = n[0], n[1], -n[1], n[0]
+    x, y = normal[k, 0], normal[k, 1]
+    frame[row, 0, 0], frame[row, 0, 1], frame[row, 1, 0], frame[row, 1, 1] = x, y, -y, x
 
 
 @compiled
@@ -202,11 +205,11 @@ def write(write_frame, solids, a, b, swapped, raw, k, contacts, row):
     contacts.slot[row, 0], contacts.slot[row, 1] = solids.slot[a], solids.slot[b]
     contacts.id[row] = feature_a << 16 | feature_b
     contacts.gap[row] = raw.gap[k]
-    write_frame(contacts.frame[row], raw.normal[k])
+    write_frame(contacts.frame, row, raw.normal, k)
     for i in range(raw.point.shape[1]):
         contacts.point[row, i] = raw.point[k, i]
-        contacts.arm[row, 0, i] = raw.point[k, i] - solids.x[a, i]
-        contacts.arm[row, 1, i] = raw.point[k, i] - solids.x[b, i]
+        contacts.arm[row, 0, i] = raw.point[k, i] - solids.form.x[a, i]
+        contacts.arm[row, 1, i] = raw.point[k, i] - solids.form.x[b, i]
     friction = solids.friction[a] * solids.friction[b]
     restitution = max(solids.restitution[a], solids.restitution[b])
     if len(solids.special) > 0:

@@ -6,7 +6,7 @@ Slides S10; lectures/05_contact.md.
 import numpy as np
 
 from ..shapes import Box, Capsule, Disc, Plane, Point, Polygon, Sphere
-from .solids import BALL, BOX, CAPSULE, PLANE, POLYGON, Solids, place_in_plane, place_in_space
+from .solids import BALL, BOX, CAPSULE, PLANE, POLYGON, Forms, Solids, place_in_plane, place_in_space
 
 
 def make_solids(bodies, scene):
@@ -22,30 +22,35 @@ def make_solids(bodies, scene):
         for shape, e in zip(shapes, edges, strict=True)
     ]
     first = np.cumsum([0] + [len(c) for c in corners])
-    groups = {g: k for k, g in enumerate({parts[i].group: None for i in number if parts[i].group is not None})}
+    groups = {
+        g: k for k, g in enumerate({parts[i].group: None for i in number if parts[i].group is not None})
+    }
     apart, special, law = _pairs(scene, of_body)
     orientation = bodies.orientation[number]
+    form = Forms(
+        size=np.array([_size(shape, d) for shape in shapes]).reshape(s, 3),
+        radius=np.array([_radius(shape, c) for shape, c in zip(shapes, corners, strict=True)]),
+        x=bodies.position[number],
+        axes=np.zeros((s, d, d)),
+        first=first.astype(int),
+        corner=np.zeros((first[-1], 2)),
+        normal=np.zeros((first[-1], 2)),
+        length=np.linalg.norm(np.concatenate(edges), axis=1),
+    )
     solids = Solids(
+        form,
         number=np.array(number, dtype=int),
         slot=np.array([bodies.slot.get(i, -1) for i in number], dtype=int),
         kind=np.array([_kind(shape, d) for shape in shapes], dtype=int),
-        size=np.array([_size(shape, d) for shape in shapes]).reshape(s, 3),
-        radius=np.array([_radius(shape, c) for shape, c in zip(shapes, corners, strict=True)]),
         principal=_principal(bodies, number),
+        corner_in_body=np.concatenate(corners),
+        normal_in_body=np.concatenate(normals),
         friction=np.array([parts[i].friction for i in number]),
         restitution=np.array([parts[i].restitution for i in number]),
-        first=first.astype(int),
-        corner_in_body=np.concatenate(corners or [np.zeros((0, 2))]),
-        normal_in_body=np.concatenate(normals or [np.zeros((0, 2))]),
-        length=np.linalg.norm(np.concatenate(edges or [np.zeros((0, 2))]), axis=1),
         group=np.array([groups.get(parts[i].group, -1) for i in number], dtype=int),
         apart=apart,
         special=special,
         special_law=law,
-        x=bodies.position[number],
-        axes=np.zeros((s, d, d)),
-        corner=np.zeros((first[-1], 2)),
-        normal=np.zeros((first[-1], 2)),
         reach=np.zeros(s),
         low=np.zeros((s, d)),
         high=np.zeros((s, d)),
@@ -55,7 +60,7 @@ def make_solids(bodies, scene):
         if solids.slot[a] < 0:
             turn(solids, a, orientation[a])
             if isinstance(shapes[a], Plane):
-                solids.axes[a, 0] = np.array(shapes[a].normal) @ solids.axes[a]
+                form.axes[a, 0] = np.array(shapes[a].normal) @ form.axes[a]
     return solids
 
 

@@ -10,6 +10,7 @@ from ..compiled import compiled
 from ..rotation import vector
 from .closest import (
     along,
+    body_axis,
     clip,
     closest_on_segments,
     crossing,
@@ -28,30 +29,30 @@ _SIDE_BY_SIDE = 1e-3  # of the radii: how much farther apart than the closest po
 
 
 @compiled
-def ball_ball(solids, a, b, limit, raw):
+def ball_ball(forms, a, b, limit, raw):
     """Returns the number of contacts, 0 or 1."""
-    r_a, r_b = solids.size[a, 0], solids.size[b, 0]
-    return put_balls(raw, 0, limit, vector(solids.x, a), r_a, vector(solids.x, b), r_b, UP, 0, 0)
+    r_a, r_b = forms.size[a, 0], forms.size[b, 0]
+    return put_balls(raw, 0, limit, vector(forms.x, a), r_a, vector(forms.x, b), r_b, UP, 0, 0)
 
 
 @compiled
-def capsule_ball(solids, a, b, limit, raw):
+def capsule_ball(forms, a, b, limit, raw):
     """The ball against the nearest point of the capsule's segment: 0 or 1 contacts."""
-    x, c, e = vector(solids.x, a), vector(solids.x, b), vector(solids.axes[a], 2)
-    s = clip(dot(minus(c, x), e), -solids.size[a, 1], solids.size[a, 1])
-    r_a, r_b = solids.size[a, 0], solids.size[b, 0]
+    x, c, e = vector(forms.x, a), vector(forms.x, b), body_axis(forms, a, 2)
+    s = clip(dot(minus(c, x), e), -forms.size[a, 1], forms.size[a, 1])
+    r_a, r_b = forms.size[a, 0], forms.size[b, 0]
     return put_balls(raw, 0, limit, along(x, s, e), r_a, c, r_b, crossing(e, e), 0, 0)
 
 
 @compiled
-def capsule_capsule(solids, a, b, limit, raw):
+def capsule_capsule(forms, a, b, limit, raw):
     """1 contact where the segments are closest; 2 where they lie side by side.
 
     Features: 1 and 2 an end, 0 somewhere on the side.
     """
-    x, y = vector(solids.x, a), vector(solids.x, b)
-    e, g = vector(solids.axes[a], 2), vector(solids.axes[b], 2)
-    r_a, h_a, r_b, h_b = solids.size[a, 0], solids.size[a, 1], solids.size[b, 0], solids.size[b, 1]
+    x, y = vector(forms.x, a), vector(forms.x, b)
+    e, g = body_axis(forms, a, 2), body_axis(forms, b, 2)
+    r_a, h_a, r_b, h_b = forms.size[a, 0], forms.size[a, 1], forms.size[b, 0], forms.size[b, 1]
     s, t = closest_on_segments(x, scaled(h_a, e), y, scaled(h_b, g))
     p, q, default = along(x, s * h_a, e), along(y, t * h_b, g), crossing(e, g)
     nearest = norm(minus(q, p))
@@ -79,26 +80,26 @@ def capsule_capsule(solids, a, b, limit, raw):
 
 
 @compiled
-def plane_ball(solids, a, b, limit, raw):
+def plane_ball(forms, a, b, limit, raw):
     """0 or 1 contacts."""
-    return plane_point(solids, a, vector(solids.x, b), solids.size[b, 0], limit, raw, 0, 0)
+    return plane_point(forms, a, vector(forms.x, b), forms.size[b, 0], limit, raw, 0, 0)
 
 
 @compiled
-def plane_capsule(solids, a, b, limit, raw):
+def plane_capsule(forms, a, b, limit, raw):
     """Each end of the capsule that is near: 0 to 2 contacts."""
     m = 0
     for end in (-1.0, 1.0):
-        p = along(vector(solids.x, b), end * solids.size[b, 1], vector(solids.axes[b], 2))
-        m = plane_point(solids, a, p, solids.size[b, 0], limit, raw, m, 1 + (end > 0))
+        p = along(vector(forms.x, b), end * forms.size[b, 1], body_axis(forms, b, 2))
+        m = plane_point(forms, a, p, forms.size[b, 0], limit, raw, m, 1 + (end > 0))
     return m
 
 
 @compiled
-def plane_point(solids, a, p, r, limit, raw, m, feature):
+def plane_point(forms, a, p, r, limit, raw, m, feature):
     """A ball of radius r about p against the plane a, if near; returns m, or m + 1."""
-    n = vector(solids.axes[a], 0)
-    gap = dot(minus(p, vector(solids.x, a)), n) - r
+    n = body_axis(forms, a, 0)
+    gap = dot(minus(p, vector(forms.x, a)), n) - r
     if not gap <= limit:
         return m
     put(raw, m, along(p, -r - 0.5 * gap, n), n, gap, 0, feature)
