@@ -48,7 +48,7 @@ def scatter_velocities(system, u, state):
 
 @compiled
 def choose_velocities(rows, label, gap, before, after, λ, h, slack, used):
-    """Into used (n, k): with which velocity each body moves. gap (m,), slack (m,): of each contact, m.
+    """Into used (n, k): with which velocity each body moves. gap (m,), m, of each contact; slack, m: a gap that counts as none.
 
     Returns whether all move with the mean.
     """
@@ -66,7 +66,7 @@ def choose_velocities(rows, label, gap, before, after, λ, h, slack, used):
                     for a in range(k):
                         twice += rows.J[r, side, a] * (before[b, a] + after[b, a])
             work[island] += 0.5 * λ[r] * twice
-            if r == first and gap[q] + 0.5 * h * twice < -slack[q]:
+            if r == first and gap[q] + 0.5 * h * twice < -slack:
                 lands[island] = True
     mean = True
     for i in range(n):
@@ -81,16 +81,19 @@ def choose_velocities(rows, label, gap, before, after, λ, h, slack, used):
 
 
 @compiled
-def let_rest(label, pressed, before, free, after, tolerance):
+def let_rest(label, rows, λ, before, free, after, tolerance):
     """Set to 0 what the contacts hold still: islands as slow as the solver's tolerance, before and after.
 
-    pressed (n,): whether a contact pushes the body. Returns how many bodies rest.
+    Their speed is measured by what the forces would make of it in this step. Returns how many bodies rest.
     """
     n, k = before.shape
     push, speed, held = np.zeros(n), np.zeros(n), np.zeros(n, np.bool_)
+    for r in range(len(λ)):
+        for side in range(2):
+            if λ[r] != 0 and rows.bodies[r, side] >= 0:
+                held[label[rows.bodies[r, side]]] = True
     for i in range(n):
         island = label[i]
-        held[island] = held[island] or pressed[i]
         for a in range(k):
             push[island] = max(push[island], abs(free[i, a] - before[i, a]))
             speed[island] = max(speed[island], abs(before[i, a]), abs(after[i, a]))

@@ -12,13 +12,15 @@ import numpy as np
 from ..bodies import solve_mass
 from ..collision import find_contacts, make_collider
 from ..compiled import bind, compiled
-from ..contacts import contact_rows, fill_masses, label_islands
+from ..contacts import contact_rows, fill_masses, keys, label_islands, look_up, part, spread, tangents
 from ..forces import external_force, with_user_forces
 from ..integrators import make_work
 from ..lcp.cone_newton import cone_newton_kernel
 from ..trajectory import BodyState
+from .bouncing import MOST_IMPACTS, hop, strike
 from .flight import choose_velocities, gather_velocities, let_rest, move
-from .smooth import all_finite
+from .impacts import IMPACTS
+from .lifting import lift
 
 
 @compiled
@@ -38,105 +40,108 @@ def fill_free(force, system, t, h, state, M, before, f, τ, free):
                 free[i, d + a] += h * τ[i, a]
 
 
+CLOSED = 1e-9  # of the smallest body's size: a gap that counts as none
+REST = 100  # times the solver's tolerance: so slow is at rest, where contacts hold it
+
+
 class VelocityLCP:
     """A scene made ready to run with contact: ``advance`` moves ``state``, and records if told to."""
 
-    def __init__(self, scene, bodies, user_forces=(), tolerance=1e-12, iterations=100, impact="newton"):
+    def __init__(self, scene, bodies, user_forces=(), tolerance=1e-12, iterations=100, impact=None):
         self.bodies, self.system, self.state = bodies, bodies.system, bodies.state()
         self.collider = make_collider(bodies, scene)
-        self.tolerance, self.iterations, self.impact = tolerance, iterations, impact
+        self.tolerance, self.iterations, self.law = tolerance, iterations, IMPACTS[impact]
         force = external_force
         if user_forces:
             force = with_user_forces(bodies, tuple(user_forces), self.public_state)
+        self.timeless = not user_forces  # the same state gives the same force
         self.fill_free = bind(fill_free, force)
-        n, d = self.state.x.shape
-        self.k = 6 if d == 3 else 3
+        n, self.d = self.state.x.shape
+        self.k = 6 if self.d == 3 else 3
         self.M, self.before, self.free = np.zeros((n, self.k, self.k)), np.zeros((n, self.k)), np.zeros((n, self.k))
-        self.f, self.τ = np.zeros((n, d)), np.zeros_like(self.state.ω)
-        self.work = make_work(n, len(self.state.q), d, 30, 1e-15)
+        self.f, self.τ = np.zeros((n, self.d)), np.zeros_like(self.state.ω)
+        self.work = make_work(n, len(self.state.q), self.d, 30, 1e-15)
         radius = self.collider.solids.radius
-        self.size = float(radius[np.isfinite(radius)].min())
-        self.key, self.force = np.zeros(0, dtype=np.int64), np.zeros((0, d))  # of the contacts of the step before, N
-        self.stats = []
-
-    def public_state(self, t, state):
-        return BodyState(t, *(array[0] for array in self.bodies.unpack(state.y[None])))
+        size = float(radius[np.isfinite(radius)].min())
+        self.closed, self.rest = CLOSED * size, REST * tolerance
+        self.key, self.force = np.zeros(0, dtype=np.int64), np.zeros((0, self.d))  # of the contacts before
+        self.filled, self.still, self.lent = 0.0, False, 0.0
+        self.notes, self.passes, self.error = [], 0, 0.0
 
     def step(self, t, h):
-        """One step of S9."""
-        left, hops = h, 0
+        """One step of S9, from impact to impact."""
+        if self.still:  # the same state again: the same forces
+            self.notes.append(self.notes[-1])
+            return
+        start, left, impacts = self.state.y.copy(), h, 0
         while left > 0:
             self.fill(t + h - left, left)
-            touching = self.touching(left)
-            touching = self.lift(touching, left)
-            if hops < MOST_IMPACTS and self.strike(touching, h):
+            contacts = lift(self, self.find(left), left)
+            bouncing = contacts.restitution.any() and impacts < MOST_IMPACTS
+            if bouncing and strike(self, contacts, h):
                 self.fill(t + h - left, left)
-            bouncing = self.bouncing(touching) if hops < MOST_IMPACTS else None
-            hop = self.fly(touching, bouncing, t + h - left, left)
-            left = left - hop if hop < left else 0.0
-            hops += 1
+            done = hop(self, contacts, left) if bouncing else self.fly(contacts, left)[0]
+            left, impacts = left - done if done < left else 0.0, impacts + 1
+        self.still = self.timeless and impacts == 1 and np.array_equal(start, self.state.y)
 
     def fill(self, t, h):
+        """M, u, and the velocities that there would be after h without contact."""
+        self.now, self.filled = t, h
         self.fill_free(self.system, t, h, self.state, self.M, self.before, self.f, self.τ, self.free)
 
-    def touching(self, h):
+    def refresh(self, h):
+        """The same after the bodies have been moved or slowed, before ``fill``'s time has passed."""
+        self.fill(self.now, h)
+
+    def keep(self):
+        """What ``restore`` needs to go back to now."""
+        state = self.state
+        return state.y.copy(), state.L.copy(), self.key, self.force, len(self.notes)
+
+    def restore(self, kept):
+        """Go back to what ``keep`` kept."""
+        self.state.y[:], self.state.L[:], self.key, self.force, notes = kept
+        del self.notes[notes:]
+
+    def note(self, contacts, rows, λ):
+        """Keep the contacts' impulses for the record; returns them, (m, d)."""
+        impulse = spread(rows, λ, self.d)
+        self.notes.append((contacts, impulse))
+        return impulse
+
+    def find(self, h):
         """All contacts that could matter within h."""
-        reach = 2 * h * h * (np.abs(self.free - self.before).max(initial=0.0) / h)
-        find_contacts(self.collider, self.state, reach + 1e-6 * self.size, h)
-        return self.collider.contacts
+        hastening = np.abs(self.free - self.before).max(initial=0.0)
+        m = find_contacts(self.collider, self.state, 2 * h * hastening + 100 * self.closed, h)
+        return part(self.collider.contacts, slice(0, m))
 
-    def slack(self):
-        return 1e-9 * self.size
+    def rows(self, contacts, target):
+        """The contacts' rows, with w_n ≥ −target."""
+        return contact_rows(contacts, target, self.k)
 
-    def remembered(self, contacts, rows, h):
-        """Start of the solver: the impulses that go with the forces of the step before."""
-        m, d = contacts.count[0], self.state.x.shape[1]
-        key = (contacts.bodies[:m, 0] * 1000003 + contacts.bodies[:m, 1]) * 2**32 + contacts.id[:m]
-        λ = np.zeros((m, d))
-        if len(self.key):
-            order = np.argsort(self.key, kind="stable")
-            at = np.minimum(np.searchsorted(self.key[order], key), len(order) - 1)
-            same = self.key[order][at] == key
-            λ[same] = h * self.force[order][at[same]]
-        used = np.arange(d)[None] < np.diff(rows.block)[:, None]
-        return key, λ[used], used
+    def solve(self, rows, free, λ):
+        """The velocities u⁺; λ in place."""
+        after, passes, error = cone_newton_kernel(
+            rows, self.M, free, True, λ, self.tolerance, self.iterations, np.zeros(0)
+        )
+        self.passes, self.error = max(self.passes, passes), max(self.error, error)
+        return after
 
-    def solve(self, contacts, target, h, free):
-        rows = contact_rows(contacts, target, self.k)
-        key, λ, used = self.remembered(contacts, rows, h)
-        history = np.zeros(0)
-        after, passes, error = cone_newton_kernel(rows, self.M, free, True, λ, self.tolerance, self.iterations, history)
-        self.stats.append((passes, error))
-        return rows, key, used, λ, after
+    def fly(self, contacts, h):
+        """Move on by h, without rebound. Returns h, and which of the contacts (m,) pushed."""
+        rows = self.rows(contacts, np.maximum(contacts.gap, 0.0) / h)
+        free = self.before + (self.free - self.before) * (h / self.filled)
+        key = keys(contacts, len(self.bodies.mass))
+        λ = h * look_up(self.key, self.force, key)[tangents(rows, self.d)]
+        after = self.solve(rows, free, λ)
+        label, pushing = label_islands(rows.bodies, len(after)), λ[rows.block[:-1]] > 0
+        let_rest(label, rows, λ, self.before, free, after, self.rest)
+        used = np.empty_like(after)
+        choose_velocities(rows, label, contacts.gap, self.before, after, λ, h, self.closed, used)
+        move(self.system, used, after, h, self.state, self.work)
+        self.key, self.force = key, self.note(contacts, rows, λ) / h
+        return h, pushing
 
-    def lift(self, contacts, h):
-        return contacts
-
-    def strike(self, contacts, h):
-        return False
-
-    def bouncing(self, contacts):
-        return None
-
-    def fly(self, contacts, bouncing, t, h):
-        m = contacts.count[0]
-        gap = contacts.gap[:m]
-        target = np.maximum(gap, 0.0) / h
-        rows, key, used, λ, after = self.solve(contacts, target, h, self.free)
-        label = label_islands(rows.bodies, len(after))
-        pressed = np.zeros(len(after), dtype=bool)
-        normal = λ[rows.block[:-1]] > 0
-        for side in range(2):
-            b = contacts.slot[:m, side]
-            pressed[b[normal & (b >= 0)]] = True
-        let_rest(label, pressed, self.before, self.free, after, 100 * self.tolerance)
-        velocities = np.empty_like(after)
-        choose_velocities(rows, label, gap, self.before, after, λ, h, np.full(m, self.slack()), velocities)
-        move(self.system, velocities, after, h, self.state, self.work)
-        force = np.zeros(used.shape)
-        force[used] = λ / h
-        self.key, self.force = key, force
-        self.λ, self.rows = λ, rows
-        return h
-
-MOST_IMPACTS = 50
+    def public_state(self, t, state):
+        """The State as a ``BodyState`` of all bodies."""
+        return BodyState(t, *(array[0] for array in self.bodies.unpack(state.y[None])))

@@ -1,0 +1,100 @@
+"""Bounces: each impact at its own time within the step, so that the energy is right whatever Δt is.
+
+A step goes from impact to impact. Where something that rebounds would meet another body before the step ends, the
+bodies fly only until they touch, the impact law changes the velocities, and the rest of the step follows.
+
+A ball that bounces comes to rest after infinitely many bounces in a finite time. One that would last a thousandth of the step or less
+is taken for none.
+
+Slides S9, S10; lectures/05_contact.md.
+"""
+
+import numpy as np
+
+from ..contacts import part
+from .flight import scatter_velocities
+from .impacts import rates
+
+MOST_IMPACTS = 100  # in one step; after them nothing bounces any more until the step's end
+SHORT = 1e-3  # of a step
+MOST_TRIES = 60  # at the time of an impact
+
+
+def strike(sim, contacts, h):
+    """The impact of what touches, approaches and rebounds, by the scene's law. Returns whether there was one.
+
+    h: the whole step, s.
+    """
+    closed = part(contacts, contacts.gap <= sim.closed)
+    if not closed.restitution.any():
+        return False
+    rows = sim.rows(closed, np.zeros(len(closed.gap)))
+    first = rows.block[:-1]
+    w, hastening = rates(rows, sim.before)[first], rates(rows, sim.free - sim.before)[first] / sim.filled
+    lasts = np.full(len(w), np.inf)  # how long a bounce would last: until the force brings it back
+    pressed = hastening < 0
+    lasts[pressed] = 2 * closed.restitution[pressed] * w[pressed] / hastening[pressed]
+    e = np.where((w < 0) & (lasts > SHORT * h), closed.restitution, 0.0)
+    if not np.any(e > 0):
+        return False
+
+    def solve(rows, free):
+        λ = np.zeros(len(rows.c))
+        return sim.solve(rows, free, λ), λ
+
+    after, λ = sim.law(rows, e, sim.M, sim.before, solve)
+    scatter_velocities(sim.system, after, sim.state)
+    sim.note(closed, rows, λ)
+    return True
+
+
+def hop(sim, contacts, h):
+    """Move on by h, or until the next impact of what rebounds; returns by how much, s."""
+    to_come = (contacts.restitution > 0) & (contacts.gap > sim.closed)
+    start = sim.keep()
+    _, pushing = sim.fly(contacts, h)
+    if not np.any(pushing & to_come):
+        return h
+    coming, others = part(contacts, to_come), part(contacts, ~to_come)
+
+    def gap_after(time):
+        """The least gap of what is to come, after the bodies have flown for this time as if it did not."""
+        sim.restore(start)
+        sim.fly(others, time)
+        return least_gap(coming, sim.find(h)) - 0.5 * sim.closed
+
+    time = root(gap_after, coming.gap.min() - 0.5 * sim.closed, h, 0.5 * sim.closed)
+    if time is None:  # it would have gone right through: let it land instead
+        sim.restore(start)
+        return sim.fly(contacts, h)[0]
+    return time
+
+
+def least_gap(coming, now):
+    """The least gap of the pairs that were coming, among the contacts now; inf where none is near."""
+    pairs = {tuple(pair) for pair in coming.bodies.tolist()}
+    return min((gap for pair, gap in zip(now.bodies.tolist(), now.gap, strict=True) if tuple(pair) in pairs), default=np.inf)
+
+
+def root(f, start, end, tolerance):
+    """A time in (0, end] with |f| ≤ tolerance, by the Illinois method; None where f(end) is positive. start: f(0) > 0.
+
+    The last call of f is at the time that is returned. Source: Dowell & Jarratt, BIT 11 (1971) 168.
+    """
+    low, high, f_low, f_high = 0.0, end, start, f(end)
+    if f_high > tolerance:
+        return None
+    time, value, kept = high, f_high, 0  # kept: which end stayed in the last try: −1 the lower, 1 the upper
+    for _ in range(MOST_TRIES):
+        if abs(value) <= tolerance:
+            break
+        steep = f_low - f_high
+        time = low + (high - low) * (f_low / steep if np.isfinite(steep) else 0.5)
+        value = f(time)
+        if value > 0:
+            low, f_low, f_high = time, value, f_high / 2 if kept == 1 else f_high
+            kept = 1
+        else:
+            high, f_high, f_low = time, value, f_low / 2 if kept == -1 else f_low
+            kept = -1
+    return time
