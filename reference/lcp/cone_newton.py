@@ -94,7 +94,7 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
     answer = np.zeros((blocks, 2))
     if coulomb:
         evaluate(rows, M, free, λ, np.ones(blocks), shift, u, out)
-        renew_shift(rows, out.w, λ, shift, answer)
+        renew_shift(rows, out.w, shift, answer)
         answer[:, 0], answer[:, 1] = np.inf, 0.0
     ε, error, drift = NEAR, np.inf, np.inf
     for passes in range(max_iterations):
@@ -102,7 +102,7 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
             ρ[q] = 1 / (ε * size[q])
         solve_smooth(rows, M, free, λ, ρ, shift, factor, u, 0.1 * tolerance * scale, out, trial)
         before, drift = drift, renew(rows, out, λ, ρ) / scale
-        shifted = renew_shift(rows, out.w, λ, shift, answer) / scale if coulomb else 0.0
+        shifted = renew_shift(rows, out.w, shift, answer) / scale if coulomb else 0.0
         error = max(drift, shifted)
         if passes < len(history):
             history[passes] = error
@@ -349,7 +349,7 @@ def renew(rows, out, λ, ρ):
 
 
 @compiled
-def renew_shift(rows, w, λ, shift, answer):
+def renew_shift(rows, w, shift, answer):
     """The shift ← μ|w_t|, which makes the law Coulomb's. Returns the worst change, a velocity.
 
     μ|w_t| answers to a change of the shift, by μ²/(1 + μ²) of it where A is a multiple of 1. ``answer`` (B, 2) holds each contact's shift and
@@ -363,7 +363,7 @@ def renew_shift(rows, w, λ, shift, answer):
         along = 0.0
         for r in range(first + 1, rows.block[q + 1]):
             along += w[r] ** 2
-        new = rows.μ[q] * np.sqrt(along) if λ[first] > 0 else 0.0
+        new = rows.μ[q] * np.sqrt(along)
         change, changed = new - shift[q], shift[q] - answer[q, 0]
         worst = max(worst, abs(change))
         share = (new - answer[q, 1]) / changed if abs(changed) > 1e-12 * abs(new) else 0.0

@@ -28,20 +28,19 @@ def strike(sim, contacts, h):
     closed = part(contacts, contacts.gap <= sim.closed)
     if not closed.restitution.any():
         return False
-    rows = sim.rows(closed, np.zeros(len(closed.gap)))
-    first = rows.block[:-1]
-    w, hastening = rates(rows, sim.before)[first], rates(rows, sim.free - sim.before)[first] / sim.filled
+    w, hastening = motion(sim, closed)
     lasts = np.full(len(w), np.inf)  # how long a bounce would last: until the force brings it back
     pressed = hastening < 0
     lasts[pressed] = 2 * closed.restitution[pressed] * w[pressed] / hastening[pressed]
-    e = np.where((w < 0) & (lasts > SHORT * h), closed.restitution, 0.0)
-    if not np.any(e > 0):
+    e = np.where(lasts > SHORT * h, closed.restitution, 0.0)
+    if not np.any((e > 0) & (w < 0)):
         return False
 
     def solve(rows, free):
         λ = np.zeros(len(rows.c))
         return sim.solve(rows, free, λ), λ
 
+    rows = sim.rows(closed, np.zeros(len(e)))
     after, λ = sim.law(rows, e, sim.M, sim.before, solve)
     scatter_velocities(sim.system, after, sim.state)
     sim.note(closed, rows, λ)
@@ -50,12 +49,13 @@ def strike(sim, contacts, h):
 
 def hop(sim, contacts, h):
     """Move on by h, or until the next impact of what rebounds; returns by how much, s."""
-    to_come = (contacts.restitution > 0) & (contacts.gap > sim.closed)
-    start = sim.keep()
-    _, pushing = sim.fly(contacts, h)
-    if not np.any(pushing & to_come):
-        return h
+    w, hastening = motion(sim, contacts)
+    leaving = (contacts.gap <= sim.closed) & (w > 0)
+    to_come = (contacts.restitution > 0) & ((contacts.gap > sim.closed) | leaving)
+    if not np.any(to_come):
+        return sim.fly(contacts, h)
     coming, others = part(contacts, to_come), part(contacts, ~to_come)
+    start = sim.keep()
 
     def gap_after(time):
         """The least gap of what is to come, after the bodies have flown for this time as if it did not."""
@@ -63,11 +63,24 @@ def hop(sim, contacts, h):
         sim.fly(others, time)
         return least_gap(coming, sim.find(h)) - 0.5 * sim.closed
 
-    time = root(gap_after, coming.gap.min() - 0.5 * sim.closed, h, 0.5 * sim.closed)
-    if time is None:  # it would have gone right through: let it land instead
-        sim.restore(start)
-        return sim.fly(contacts, h)[0]
-    return time
+    gap, end = gap_after(h), h
+    expected = coming.gap + h * (w + 0.5 * h * hastening)[to_come]  # had it flown straight on, unhindered
+    if gap >= 0 and expected.min() >= -sim.closed:
+        return h
+    if gap >= 0:  # right through the other, or past it: look for the moment when it was there
+        end = h * min(1.0, (coming.gap / (coming.gap - np.minimum(expected, 0.0) + 1e-300)).min())
+        gap = gap_after(end)
+    turning = leaving & to_come & (hastening < 0)
+    begin = np.min(-w[turning] / hastening[turning], initial=np.inf)  # when the first of them turns back
+    begin = begin if begin < end else 0.0
+    return root(gap_after, begin, end, gap, 0.5 * sim.closed)
+
+
+def motion(sim, contacts):
+    """How fast each contact parts, w_n (m,), and how its rate would change without contact, per s."""
+    rows = sim.rows(contacts, np.zeros(len(contacts.gap)))
+    first = rows.block[:-1]
+    return rates(rows, sim.before)[first], rates(rows, sim.free - sim.before)[first] / sim.filled
 
 
 def least_gap(coming, now):
@@ -76,20 +89,21 @@ def least_gap(coming, now):
     return min((gap for pair, gap in zip(now.bodies.tolist(), now.gap, strict=True) if tuple(pair) in pairs), default=np.inf)
 
 
-def root(f, start, end, tolerance):
-    """A time in (0, end] with |f| ≤ tolerance, by the Illinois method; None where f(end) is positive. start: f(0) > 0.
+def root(f, begin, end, f_end, tolerance):
+    """The time in (begin, end] where f goes from + to −, to |f| ≤ tolerance, by the Illinois method.
 
-    The last call of f is at the time that is returned. Source: Dowell & Jarratt, BIT 11 (1971) 168.
+    The last call of f is at the time that is returned; where f has no such change of sign that is ``end``. Source: Dowell
+    & Jarratt, BIT 11 (1971) 168.
     """
-    low, high, f_low, f_high = 0.0, end, start, f(end)
-    if f_high > tolerance:
-        return None
-    time, value, kept = high, f_high, 0  # kept: which end stayed in the last try: −1 the lower, 1 the upper
+    if abs(f_end) <= tolerance or f_end > 0:
+        return end
+    low, high, f_low, f_high = begin, end, f(begin), f_end
+    time, value, kept = low, f_low, 0  # kept: which end stayed in the last try: −1 the lower, 1 the upper
     for _ in range(MOST_TRIES):
         if abs(value) <= tolerance:
-            break
+            return time
         steep = f_low - f_high
-        time = low + (high - low) * (f_low / steep if np.isfinite(steep) else 0.5)
+        time = low + (high - low) * (f_low / steep if np.isfinite(steep) and f_low > 0 else 0.5)
         value = f(time)
         if value > 0:
             low, f_low, f_high = time, value, f_high / 2 if kept == 1 else f_high

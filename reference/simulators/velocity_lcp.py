@@ -61,7 +61,7 @@ class VelocityLCP:
         self.M, self.before, self.free = np.zeros((n, self.k, self.k)), np.zeros((n, self.k)), np.zeros((n, self.k))
         self.f, self.τ = np.zeros((n, self.d)), np.zeros_like(self.state.ω)
         self.work = make_work(n, len(self.state.q), self.d, 30, 1e-15)
-        radius = self.collider.solids.radius
+        radius = self.collider.solids.form.radius
         size = float(radius[np.isfinite(radius)].min())
         self.closed, self.rest = CLOSED * size, REST * tolerance
         self.key, self.force = np.zeros(0, dtype=np.int64), np.zeros((0, self.d))  # of the contacts before
@@ -80,7 +80,7 @@ class VelocityLCP:
             bouncing = contacts.restitution.any() and impacts < MOST_IMPACTS
             if bouncing and strike(self, contacts, h):
                 self.fill(t + h - left, left)
-            done = hop(self, contacts, left) if bouncing else self.fly(contacts, left)[0]
+            done = hop(self, contacts, left) if bouncing else self.fly(contacts, left)
             left, impacts = left - done if done < left else 0.0, impacts + 1
         self.still = self.timeless and impacts == 1 and np.array_equal(start, self.state.y)
 
@@ -124,23 +124,24 @@ class VelocityLCP:
         after, passes, error = cone_newton_kernel(
             rows, self.M, free, True, λ, self.tolerance, self.iterations, np.zeros(0)
         )
+        if error > 1e-9: print('UNSOLVED', passes, error)
         self.passes, self.error = max(self.passes, passes), max(self.error, error)
         return after
 
     def fly(self, contacts, h):
-        """Move on by h, without rebound. Returns h, and which of the contacts (m,) pushed."""
+        """Move on by h, without rebound. Returns h."""
         rows = self.rows(contacts, np.maximum(contacts.gap, 0.0) / h)
         free = self.before + (self.free - self.before) * (h / self.filled)
         key = keys(contacts, len(self.bodies.mass))
         λ = h * look_up(self.key, self.force, key)[tangents(rows, self.d)]
         after = self.solve(rows, free, λ)
-        label, pushing = label_islands(rows.bodies, len(after)), λ[rows.block[:-1]] > 0
+        label = label_islands(rows.bodies, len(after))
         let_rest(label, rows, λ, self.before, free, after, self.rest)
         used = np.empty_like(after)
         choose_velocities(rows, label, contacts.gap, self.before, after, λ, h, self.closed, used)
         move(self.system, used, after, h, self.state, self.work)
         self.key, self.force = key, self.note(contacts, rows, λ) / h
-        return h, pushing
+        return h
 
     def public_state(self, t, state):
         """The State as a ``BodyState`` of all bodies."""
