@@ -23,7 +23,6 @@ class Joint:
 
     dimensions = (3,)
     coordinate = None  # its name; None: the joint has none
-    springy = False  # whether a spring and damper can act in it
 
     a: int = field(kw_only=False)
     b: int | None = field(default=None, kw_only=False)
@@ -55,7 +54,7 @@ class Joint:
         self._check_turning(kind, bodies, values.get("point"), self.ends)
         for name in ("stiffness", "damping"):
             values[name] = inputs.number(name, getattr(self, name), least=0)
-            if values[name] and not self.springy:
+            if values[name] and self.coordinate is None:
                 raise ValueError(
                     f"{name} must be 0 for a {kind}, which has no coordinate, but is {values[name]!r}"
                 )

@@ -16,17 +16,16 @@ from .row import ANGULAR, DISTANCE, LINEAR, TURN, Row, frame, linear_rows, paral
 class BallJoint(Joint):
     """The two bodies keep a point in common and turn freely about it: 3 rows.
 
-    point (3,): in world coordinates at the start. stiffness and damping act on the rotation of j seen from i.
+    point (3,): in world coordinates at the start.
     """
 
-    springy = True
     point: np.ndarray
 
     def geometry(self, bodies, d):
         return {"point": inputs.array("point", self.point, (3,))}
 
     def turns(self, d):
-        return self.soft
+        return False
 
     def rows(self, bodies):
         return linear_rows(np.eye(3), self.point, self.point)
@@ -42,7 +41,6 @@ class Hinge(Joint):
 
     dimensions = (2, 3)
     coordinate = "angle"
-    springy = True
     point: np.ndarray
     axis: np.ndarray = None
 
@@ -82,7 +80,6 @@ class Slider(Joint):
 
     dimensions = (2, 3)
     coordinate = "displacement"
-    springy = True
     axis: np.ndarray
 
     def geometry(self, bodies, d):
@@ -144,7 +141,6 @@ class Distance(Joint):
 
     dimensions = (2, 3)
     coordinate = "length"
-    springy = True
     point_a: np.ndarray = None
     point_b: np.ndarray = None
     length: float = None

@@ -1,20 +1,26 @@
-"""The smooth simulator: no contact is possible, so an integrator alone moves the bodies.
+"""The smooth simulator: no contact is possible, so an integrator alone moves the bodies; joints allowed.
 
-``run`` is the whole simulation: it repeats the integrator's step (S9). It is compiled together with the step
+``run`` is the whole simulation: it repeats the step (S9). Where there are joints, each stage of the
+integrator finds their force at the level of accelerations, and after each step positions and velocities are
+projected back onto them. It is compiled together with the step
 and the force; a force that is the user's own Python function makes ``run`` and the step plain Python around
 compiled parts.
 
 Slides S4, S9; lectures/02_equation_of_motion.md.
 """
 
-import functools
-
 import numpy as np
 
-from ..compiled import bind, compiled, plain
+from ..compiled import bind, compiled
+from ..correction import project
+from ..equation import constrained_force
 from ..forces import external_force, with_user_forces
 from ..integrators import INTEGRATORS, copy, make_work
+from ..mechanism import make_mechanism, rigid_rows, soft_rows
+from ..multipliers import MULTIPLIERS
 from ..trajectory import BodyState
+
+TORN = 1e-6  # of the mechanism's size: a joint error that no projection could mend; the run stops
 
 
 @compiled
@@ -52,6 +58,24 @@ def all_finite(y):
     return total == 0
 
 
+@compiled
+def jointed_step(step, factorise, substitute, system, t, h, state, work):
+    """A step of S9 with joints: constraint forces and velocities and positions; then what drifted is put back."""
+    step(system, t, h, state, work)
+    iterations, rest = project(factorise, substitute, system, state)
+    work.solve[0] = max(work.solve[0], iterations)
+    work.solve[1] = max(work.solve[1], rest)
+    if rest > TORN:
+        state.y[:] = np.nan
+
+
+def with_joints(bodies, solver):
+    """The System with its Mechanism, ready for this solver (an entry of ``MULTIPLIERS``)."""
+    rows, soft = rigid_rows(bodies), soft_rows(bodies)
+    factor = solver.prepare(rows, bodies.system)
+    return bodies.system._replace(mechanism=make_mechanism(bodies, rows, soft, factor))
+
+
 class Smooth:
     """A scene made ready to run with one integrator: ``advance`` moves ``state``, and records if told to."""
 
@@ -60,19 +84,24 @@ class Smooth:
         self.limits = settings.iterations, settings.tolerance
         self.nothing = np.empty((0, self.state.y.size)), np.empty((0, 2))
         method = INTEGRATORS[settings.integrator]
+        force = external_force
         if user_forces:
-            step = method.partial(with_user_forces(bodies, tuple(user_forces), self.public_state))
-            self.run = functools.partial(plain(run), step)
+            force = with_user_forces(bodies, tuple(user_forces), self.public_state)
+        if not bodies.joints:
+            self.system, step = bodies.system, method.bind(force)
         else:
-            self.run = bind(run, method.bind(external_force))
+            solver = MULTIPLIERS[settings.solver]
+            functions = solver.factorise, solver.substitute
+            self.system = with_joints(bodies, solver)
+            step = bind(jointed_step, method.bind(bind(constrained_force, force, *functions)), *functions)
+            self.project = bind(project, *functions)
+        self.run = bind(run, step)
 
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
         """So many steps of h; see ``run``."""
         if record is None:
             record, solves = self.nothing
-        return self.run(
-            self.bodies.system, self.state, origin, first, h, steps, every, *self.limits, record, solves
-        )
+        return self.run(self.system, self.state, origin, first, h, steps, every, *self.limits, record, solves)
 
     def public_state(self, t, state):
         """The State as a ``BodyState`` of all bodies."""
