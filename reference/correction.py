@@ -11,7 +11,7 @@ import numpy as np
 
 from .bodies import planar
 from .compiled import compiled
-from .equation import add_rows, fill_mass_rows, row_times
+from .embedding import add_rows, fill_mass_rows, row_times, rows_of
 from .rotation import exponential, multiply, quaternion, store_quaternion
 from .rows import fill_rows
 
@@ -25,36 +25,42 @@ def project(factorise, substitute, system, state):
     |φ| is relative to the mechanism's size; motors have none.
     """
     mechanism = system.mechanism
-    rows, jacobian = mechanism.rigid, mechanism.jacobian
+    index, law, J, φ, _ = rows_of(mechanism)
     worst, iterations = np.inf, 0
     for iteration in range(MOST_PROJECTIONS):
-        fill_rows(rows, state, jacobian)
-        before, worst = worst, 0.0
-        for k in range(len(rows.kind)):
-            mechanism.right[k] = 0.0 if rows.speed[k] != 0 else -jacobian.φ[k]
-            worst = max(worst, abs(mechanism.right[k]) / mechanism.scale)
+        fill_rows(mechanism.rows, state, mechanism.jacobian)
+        before, worst = worst, fill_position_side(law, φ, mechanism.right) / mechanism.scale
         if iteration > 0 and (worst <= mechanism.tolerance or not worst < before):
             break
-        fill_mass_rows(system, rows, jacobian, mechanism.B)
+        fill_mass_rows(index, J, system.mass, system.inertia, mechanism.jacobian.frame, mechanism.B)
         factorise(system, mechanism)
         substitute(mechanism, mechanism.right, mechanism.λ)
         mechanism.v[:] = 0
         mechanism.ω[:] = 0
-        add_rows(mechanism.B, rows.bodies, mechanism.λ, mechanism.v, mechanism.ω)
+        add_rows(index, mechanism.B, mechanism.λ, mechanism.v, mechanism.ω)
         displace(state, mechanism.v, mechanism.ω)
         iterations += 1
-    project_velocities(substitute, mechanism, state)
+    fill_velocity_side(index, law, J, state.v, state.ω, mechanism.right)
+    substitute(mechanism, mechanism.right, mechanism.λ)
+    add_rows(index, mechanism.B, mechanism.λ, state.v, state.ω)
     return iterations, worst
 
 
 @compiled
-def project_velocities(substitute, mechanism, state):
-    """u + M⁻¹ Jᵀ λ with A λ = speed − J u, A as factorised before."""
-    rows, jacobian = mechanism.rigid, mechanism.jacobian
-    for k in range(len(rows.kind)):
-        mechanism.right[k] = rows.speed[k] - row_times(jacobian.J, rows.bodies, k, state.v, state.ω)
-    substitute(mechanism, mechanism.right, mechanism.λ)
-    add_rows(mechanism.B, rows.bodies, mechanism.λ, state.v, state.ω)
+def fill_position_side(law, φ, right):
+    """right = −φ, 0 for motors, which have no φ. Returns the largest."""
+    worst = 0.0
+    for k in range(len(right)):
+        right[k] = -φ[k] if law[k, 3] == 0 else 0.0
+        worst = max(worst, abs(right[k]))
+    return worst
+
+
+@compiled
+def fill_velocity_side(index, law, J, v, ω, right):
+    """right = speed − J u."""
+    for k in range(len(right)):
+        right[k] = law[k, 3] - row_times(index, J, k, v, ω)
 
 
 @compiled

@@ -13,47 +13,46 @@ import numpy as np
 
 from .compiled import compiled
 from .joints import TURN
-from .rows import Jacobian, Rows, fill_rows, make_jacobian
+from .rows import Jacobian, Rows, fill_rows, make_jacobian, make_rows
 
 
 class Mechanism(NamedTuple):
-    """The joints of a scene, and room to compute in. M moving bodies, m rigid rows, s soft ones.
+    """The joints of a scene, and room to compute in. M moving bodies; m rigid rows come first, then soft ones.
 
     B (m, 2, k): the rows of J M⁻¹. right (m,), λ (m,): right-hand side and solution of A λ = right. v (M, d),
-    ω (r, 3) or (r, 1): velocities or their rates. factor: the solver's own arrays.
+    ω (r, 3) or (r, 1): velocities or their rates. factor: the solver's own arrays. watch (3,): the smallest
+    pivot, relative to what it was before the elimination, and the smallest and largest rank seen so far.
     """
 
-    rigid: Rows
-    soft: Rows
+    rows: Rows
     jacobian: Jacobian
-    soft_jacobian: Jacobian
     B: np.ndarray
     right: np.ndarray
     λ: np.ndarray
     v: np.ndarray
     ω: np.ndarray
     factor: tuple
+    watch: np.ndarray
     scale: float  # m: the size of the mechanism, for tolerances
     tolerance: float  # of φ, relative to the scale
 
 
 def make_mechanism(bodies, rigid, soft, factor=(), tolerance=1e-12):
     """Room for the rows of these bodies (``layout.Bodies``)."""
-    d, r = bodies.dimension, len(bodies.rotating)
-    jacobian, soft_jacobian = (make_jacobian(len(rows.kind), r, d) for rows in (rigid, soft))
-    m = len(rigid.kind)
+    d, r, m = bodies.dimension, len(bodies.rotating), len(rigid.kind)
+    rows = Rows(*(np.concatenate(pair) for pair in zip(rigid, soft, strict=True)))
+    jacobian = make_jacobian(len(rows.kind), r, d)
     sizes = np.concatenate([np.abs(rigid.p).ravel(), np.abs(rigid.target), [np.finfo(float).tiny]])
     return Mechanism(
-        rigid,
-        soft,
+        rows,
         jacobian,
-        soft_jacobian,
-        B=np.zeros_like(jacobian.J),
+        B=np.zeros((m, *jacobian.J.shape[1:])),
         right=np.zeros(m),
         λ=np.zeros(m),
         v=np.zeros((len(bodies.moving), d)),
         ω=np.zeros((r, 3 if d == 3 else 1)),
         factor=factor,
+        watch=np.array([1.0, m, 0]),
         scale=float(sizes.max()),
         tolerance=tolerance,
     )
@@ -106,24 +105,10 @@ def bounded_rows(bodies):
 
 def _lay_out(bodies, made):
     """Rows from (joint's number, joint, row, what differs from a row that holds)."""
-    m = len(made)
-    rows = Rows(
-        kind=np.array([row.kind for _, _, row, _ in made], dtype=int),
-        bodies=np.full((m, 2), -1),
-        joint=np.array([number for number, _, _, _ in made], dtype=int),
-        p=np.zeros((m, 2, 3)),
-        e=np.zeros((m, 3)),
-        e2=np.zeros((m, 3)),
-        c=np.zeros((m, 3)),
-        target=np.zeros(m),
-        stiffness=np.zeros(m),
-        damping=np.zeros(m),
-        speed=np.zeros(m),
-        lower=np.full(m, -np.inf),
-        upper=np.full(m, np.inf),
-    )
-    for k, (_, joint, row, law) in enumerate(made):
+    rows = make_rows(len(made))
+    for k, (number, joint, row, law) in enumerate(made):
         i, j = joint.ends
+        rows.kind[k], rows.joint[k] = row.kind, number
         rows.bodies[k] = [-1 if body is None else bodies.slot.get(body, -1) for body in (i, j)]
         for side, (body, p) in enumerate(((i, row.p_i), (j, row.p_j))):
             if p is not None:

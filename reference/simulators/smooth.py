@@ -13,7 +13,7 @@ import numpy as np
 
 from ..compiled import bind, compiled
 from ..correction import project
-from ..equation import constrained_force
+from ..embedding import constrained_force
 from ..forces import external_force, with_user_forces
 from ..integrators import INTEGRATORS, copy, make_work
 from ..mechanism import make_mechanism, rigid_rows, soft_rows

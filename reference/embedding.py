@@ -1,0 +1,131 @@
+"""Embedding: the equation of motion multiplied by J M⁻¹ and allied with the joints' conditions (S8).
+
+    M u̇ = f_e + Jᵀ λ,   J u̇ + J̇ u = 0      ⇒      A λ + b = 0,   A = J M⁻¹ Jᵀ,   b = J M⁻¹ f_e + J̇ u
+
+b is what the rate of w would be without the joints. These are the loops that run in each stage of a step,
+row by row; they never form M. ``equation`` puts the same into matrices, to be looked at.
+
+Slides S7–S9; lectures/04_embedding.md.
+"""
+
+from .bodies import add_gyroscopic_torque
+from .compiled import compiled
+from .rows import fill_rows
+
+
+@compiled
+def constrained_force(force, factorise, substitute, system, t, state, f, τ):
+    """f_e + f_c: the external force, and the constraint force Jᵀ λ that keeps the joints' accelerations (S8).
+
+    force(system, t, state, f, τ) fills in the external one; factorise and substitute solve A λ = right (see
+    ``multipliers``). f (M, d) in N, τ (r, 3) or (r, 1) in N m.
+    """
+    mechanism = system.mechanism
+    force(system, t, state, f, τ)
+    fill_rows(mechanism.rows, state, mechanism.jacobian)
+    index, law, J, φ, rate = rows_of(mechanism)
+    add_joint_springs(index, law, J, φ, len(mechanism.λ), state.v, state.ω, f, τ)
+    fill_mass_rows(index, J, system.mass, system.inertia, mechanism.jacobian.frame, mechanism.B)
+    copy_rows(τ, mechanism.ω)
+    add_gyroscopic_torque(system, state, mechanism.ω)
+    fill_acceleration_side(index, mechanism.B, rate, f, mechanism.ω, mechanism.right)
+    factorise(system, mechanism)
+    substitute(mechanism, mechanism.right, mechanism.λ)
+    add_rows(index, J, mechanism.λ, f, τ)
+
+
+@compiled
+def rows_of(mechanism):
+    """index, law, J, φ and J̇ u of a mechanism's rows."""
+    rows, jacobian = mechanism.rows, mechanism.jacobian
+    return rows.index, rows.law, jacobian.J, jacobian.φ, jacobian.rate
+
+
+@compiled
+def copy_rows(a, to):
+    """Copy a two-dimensional array."""
+    for i in range(len(a)):
+        for c in range(a.shape[1]):
+            to[i, c] = a[i, c]
+
+
+@compiled
+def fill_acceleration_side(index, B, rate, f, τ, right):
+    """right = −b = −(J M⁻¹ f_e + J̇ u); τ with the gyroscopic torque."""
+    for k in range(len(right)):
+        right[k] = -row_times(index, B, k, f, τ) - rate[k]
+
+
+@compiled
+def add_joint_springs(index, law, J, φ, first, v, ω, f, τ):
+    """Add Jᵀ λ of the soft rows, from ``first`` on, whose λ = −stiffness φ − damping w is known."""
+    for k in range(first, len(φ)):
+        w = row_times(index, J, k, v, ω)
+        add_row(index, J, k, -law[k, 1] * φ[k] - law[k, 2] * w, f, τ)
+
+
+@compiled
+def fill_mass_rows(index, J, mass, inertia, frame, B):
+    """B = J M⁻¹, row by row."""
+    d = 2 if B.shape[2] == 3 else 3
+    for k in range(len(B)):
+        for side in range(2):
+            i = index[k, 1 + side]
+            if i < 0:
+                continue
+            for c in range(d):
+                B[k, side, c] = J[k, side, c] / mass[i]
+            if i >= len(inertia):
+                continue
+            if d == 2:
+                B[k, side, 2] = J[k, side, 2] / inertia[i, 0]
+            else:
+                divide_by_inertia(inertia, frame, i, J, B, k, side)
+
+
+@compiled
+def divide_by_inertia(inertia, frame, i, J, B, k, side):
+    """The turning part of B's row: R I⁻¹ Rᵀ times that of J, with R the frame of body i."""
+    n0, n1, n2 = J[k, side, 3], J[k, side, 4], J[k, side, 5]
+    s0 = (frame[i, 0] * n0 + frame[i, 3] * n1 + frame[i, 6] * n2) / inertia[i, 0]
+    s1 = (frame[i, 1] * n0 + frame[i, 4] * n1 + frame[i, 7] * n2) / inertia[i, 1]
+    s2 = (frame[i, 2] * n0 + frame[i, 5] * n1 + frame[i, 8] * n2) / inertia[i, 2]
+    for c in range(3):
+        B[k, side, 3 + c] = frame[i, 3 * c] * s0 + frame[i, 3 * c + 1] * s1 + frame[i, 3 * c + 2] * s2
+
+
+@compiled
+def row_times(index, J, k, v, ω):
+    """Row k of J u, from velocities to the constraint (S7); u given as v (M, d) and ω (r, 3) or (r, 1)."""
+    d = v.shape[1]
+    w = 0.0
+    for side in range(2):
+        i = index[k, 1 + side]
+        if i >= 0:
+            for c in range(d):
+                w += J[k, side, c] * v[i, c]
+            if i < len(ω):
+                for c in range(ω.shape[1]):
+                    w += J[k, side, d + c] * ω[i, c]
+    return w
+
+
+@compiled
+def add_row(index, J, k, λ, f, τ):
+    """Add row k's part of Jᵀ λ, from the constraint back to the bodies (S7); λ a number."""
+    d = f.shape[1]
+    for side in range(2):
+        i = index[k, 1 + side]
+        if i >= 0:
+            for c in range(d):
+                f[i, c] += J[k, side, c] * λ
+            if i < len(τ):
+                for c in range(τ.shape[1]):
+                    τ[i, c] += J[k, side, d + c] * λ
+
+
+@compiled
+def add_rows(index, J, λ, f, τ):
+    """Jᵀ λ added to f (M, d) and τ (r, 3) or (r, 1). With B for J: M⁻¹ Jᵀ λ added to velocities."""
+    for k in range(len(λ)):
+        add_row(index, J, k, λ[k], f, τ)
