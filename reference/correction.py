@@ -9,17 +9,28 @@ Slides S9, S13; lectures/04_embedding.md. Source: Hairer & Wanner, Solving Ordin
 
 import numpy as np
 
-from .bodies import planar
+from .bodies import planar, times
 from .compiled import compiled
-from .embedding import add_rows, fill_mass_rows, row_times, rows_of
-from .rotation import exponential, multiply, quaternion, store_quaternion
+from .embedding import add_rows, factorise_rows, fill_mass_rows, row_times, rows_of, solve_rows
+from .joints import DISTANCE, LINEAR
+from .rotation import (
+    exponential,
+    multiply,
+    quaternion,
+    rotate,
+    rotate_back,
+    store,
+    store_quaternion,
+    vector,
+)
 from .rows import fill_rows
 
 MOST_PROJECTIONS = 20
+CLOSE = 1e-9  # of the mechanism's size: so near, an iteration that doesn't help ends it
 
 
 @compiled
-def project(factorise, substitute, system, state):
+def project(system, state):
     """Bring positions and velocities back to where all joints hold. Returns (iterations, the worst |φ| left).
 
     |φ| is relative to the mechanism's size; motors have none.
@@ -29,30 +40,32 @@ def project(factorise, substitute, system, state):
     worst, iterations = np.inf, 0
     for iteration in range(MOST_PROJECTIONS):
         fill_rows(mechanism.rows, state, mechanism.jacobian)
-        before, worst = worst, fill_position_side(law, φ, mechanism.right) / mechanism.scale
-        if iteration > 0 and (worst <= mechanism.tolerance or not worst < before):
+        before, worst = worst, fill_position_side(index, law, φ, mechanism.scale, mechanism.right)
+        if iteration > 0 and (worst <= mechanism.tolerance or (worst < CLOSE and not worst < before)):
             break
         fill_mass_rows(index, J, system.mass, system.inertia, mechanism.jacobian.frame, mechanism.B)
-        factorise(system, mechanism)
-        substitute(mechanism, mechanism.right, mechanism.λ)
+        factorise_rows(system, mechanism)
+        solve_rows(system, mechanism, mechanism.change)
         mechanism.v[:] = 0
         mechanism.ω[:] = 0
-        add_rows(index, mechanism.B, mechanism.λ, mechanism.v, mechanism.ω)
+        add_rows(index, mechanism.B, mechanism.change, mechanism.v, mechanism.ω)
         displace(state, mechanism.v, mechanism.ω)
         iterations += 1
     fill_velocity_side(index, law, J, state.v, state.ω, mechanism.right)
-    substitute(mechanism, mechanism.right, mechanism.λ)
-    add_rows(index, mechanism.B, mechanism.λ, state.v, state.ω)
+    solve_rows(system, mechanism, mechanism.change)
+    add_rows(index, mechanism.B, mechanism.change, state.v, state.ω)
+    fill_momenta(system.inertia, state)
     return iterations, worst
 
 
 @compiled
-def fill_position_side(law, φ, right):
-    """right = −φ, 0 for motors, which have no φ. Returns the largest."""
+def fill_position_side(index, law, φ, scale, right):
+    """right = −φ, 0 for motors, which have no φ. Returns the largest: m over the scale, or rad."""
     worst = 0.0
     for k in range(len(right)):
         right[k] = -φ[k] if law[k, 3] == 0 else 0.0
-        worst = max(worst, abs(right[k]))
+        long = index[k, 0] == LINEAR or index[k, 0] == DISTANCE
+        worst = max(worst, abs(right[k]) / scale if long else abs(right[k]))
     return worst
 
 
@@ -75,3 +88,11 @@ def displace(state, x, φ):
         else:
             turn = exponential((φ[i, 0], φ[i, 1], φ[i, 2]))
             store_quaternion(state.q, i, multiply(turn, quaternion(state.q, i)))
+
+
+@compiled
+def fill_momenta(inertia, state):
+    """L = R I Rᵀ ω, for integrators that carry it from step to step."""
+    for i in range(len(state.L)):
+        q = quaternion(state.q, i)
+        store(state.L, i, rotate(q, times(vector(inertia, i), rotate_back(q, vector(state.ω, i)))))

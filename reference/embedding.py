@@ -10,15 +10,15 @@ Slides S7–S9; lectures/04_embedding.md.
 
 from .bodies import add_gyroscopic_torque
 from .compiled import compiled
+from .multipliers import MINIMUM_NORM, factorise, substitute
 from .rows import fill_rows
 
 
 @compiled
-def constrained_force(force, factorise, substitute, system, t, state, f, τ):
+def constrained_force(force, system, t, state, f, τ):
     """f_e + f_c: the external force, and the constraint force Jᵀ λ that keeps the joints' accelerations (S8).
 
-    force(system, t, state, f, τ) fills in the external one; factorise and substitute solve A λ = right (see
-    ``multipliers``). f (M, d) in N, τ (r, 3) or (r, 1) in N m.
+    force(system, t, state, f, τ) fills in the external one. f (M, d) in N, τ (r, 3) or (r, 1) in N m.
     """
     mechanism = system.mechanism
     force(system, t, state, f, τ)
@@ -29,9 +29,31 @@ def constrained_force(force, factorise, substitute, system, t, state, f, τ):
     copy_rows(τ, mechanism.ω)
     add_gyroscopic_torque(system, state, mechanism.ω)
     fill_acceleration_side(index, mechanism.B, rate, f, mechanism.ω, mechanism.right)
-    factorise(system, mechanism)
-    substitute(mechanism, mechanism.right, mechanism.λ)
+    factorise_rows(system, mechanism)
+    solve_rows(system, mechanism, mechanism.λ)
     add_rows(index, J, mechanism.λ, f, τ)
+
+
+@compiled
+def factorise_rows(system, mechanism):
+    """A made ready by the mechanism's solver; ``watch`` keeps the smallest pivot, and the ranks seen."""
+    m, J = len(mechanism.λ), mechanism.jacobian.J
+    factor, watch = mechanism.factor, mechanism.watch
+    pivot = factorise(
+        mechanism.solver, m, factor, J, mechanism.B, system.mass, system.inertia, mechanism.jacobian.frame
+    )
+    if pivot < watch[0]:
+        watch[0] = pivot
+    if mechanism.solver == MINIMUM_NORM:
+        rank = factor.pattern[m, 0]
+        watch[1], watch[2] = min(watch[1], rank), max(watch[2], rank)
+
+
+@compiled
+def solve_rows(system, mechanism, λ):
+    """λ of A λ = right."""
+    J, right = mechanism.jacobian.J, mechanism.right
+    substitute(mechanism.solver, len(λ), mechanism.factor, J, system.mass, right, λ)
 
 
 @compiled

@@ -5,11 +5,11 @@ Slides S5–S7; lectures/03_jacobian.md.
 
 import numpy as np
 
-from .compiled import compiled
+from .compiled import compiled, compiled_apart
 from .joints import DISTANCE, LINEAR
 
 
-@compiled
+@compiled_apart
 def fill_rows_in_plane(index, geometry, x, q, v, ω, frame, φ, J, rate):
     """All rows, in the plane: the same with ω and the moments along the third axis."""
     for i in range(len(q)):

@@ -5,12 +5,12 @@ Slides S5–S7; lectures/03_jacobian.md.
 
 import numpy as np
 
-from .compiled import compiled
+from .compiled import compiled, compiled_apart
 from .joints import ANGULAR, DISTANCE, LINEAR
 from .rotation import cross
 
 
-@compiled
+@compiled_apart
 def fill_rows_in_space(index, geometry, x, q, v, ω, frame, φ, J, rate):
     """All rows, in space; ``fill_rows`` says what the arrays are."""
     fill_frames(q, frame)
