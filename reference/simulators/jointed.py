@@ -81,8 +81,9 @@ class Joints:
         smallest, least, most, _ = self.mechanism.watch
         m = len(self.mechanism.λ)
         if self.solver == "minimum_norm" and least < m:
+            ranks = f"{int(most)}" if least == most else f"{int(least)} to {int(most)}"
             said.append(
-                f"the joints are redundant: of {m} rows {int(most)} are independent. The motion is unique, the "
+                f"the joints are redundant: of {m} rows {ranks} are independent. The motion is unique, the "
                 "joints' forces are not: λ is the one with the smallest sum of squares in the rows' own frames, "
                 "which adds up N and N m as if they were one"
             )
