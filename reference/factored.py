@@ -2,7 +2,7 @@
 
 A row of J concerns few bodies, so J is kept as (m, s, k): row i acts on the bodies ``bodies[i]``, s of them
 (two for joints and contacts; −1 stands for the world, which doesn't move), with k numbers for each (6 in
-space, 3 in the plane). B = J M⁻¹ has the same shape. A λ goes through the bodies' velocities, as in S7 and S8:
+space, 3 in the plane). B = J M⁻¹ has the same shape. A λ goes through the bodies' velocities (S7, S8):
 
     u = M⁻¹ Jᵀ λ = Bᵀ λ        from the constraints to the bodies
     A λ = J u + softness λ     and back
@@ -48,7 +48,7 @@ class Factored:
 
     @classmethod
     def from_matrices(cls, J, mass_inverse, softness=None):
-        """From J (m, N), dense or sparse, and M⁻¹: (N, N) dense or sparse and symmetric, or its diagonal (N,).
+        """From J (m, N), dense or sparse, and M⁻¹: (N, N), dense or sparse, symmetric; or its diagonal (N,).
 
         Raises ValueError or TypeError, which name the argument.
         """
@@ -118,7 +118,7 @@ class Factored:
 
     def _unpacked(self, rows):
         """J or B as a sparse matrix (m, count · k)."""
-        m, s, k = rows.shape
+        m, _, k = rows.shape
         column = self.bodies[:, :, None] * k + np.arange(k)
         row = np.broadcast_to(np.arange(m)[:, None, None], column.shape)
         there = np.broadcast_to(self.bodies[:, :, None] >= 0, column.shape)

@@ -3,7 +3,7 @@
     λ_i ← clip(λ_i − ω w_i / A_ii, lower_i, upper_i),    w_i = Σ_j A_ij λ_j + b_i with all that is new already
 
 ω = 1 is Gauss–Seidel: the row's own w becomes 0. Friction is clipped to ±μ times the λ_n just renewed, so a
-normal row always comes before its friction rows (S17). A sweep over all rows costs as much as one product A λ.
+normal row always comes before its friction rows (S17). A sweep over all rows costs as much as a product A λ.
 
 The residual of the λ before a sweep needs w_i at that λ: the sweep sums it beside the w_i it works with, over
 the numbers of A that it has in hand anyway. That makes a sweep about a third dearer, so ``every`` may thin it
@@ -61,7 +61,7 @@ def gauss_seidel(problem, start=None, tolerance=1e-10, max_iterations=1000, *, e
 
     start (n,): λ to begin with; None: λ⁰ = clip(0, lower, upper). One iteration is a sweep over all rows.
     every: the residual is looked at each so many sweeps only; ``history`` has NaN for the others.
-    Converges for symmetric positive definite A without friction (S15); slowly where heavy things rest on light ones.
+    Converges for symmetric positive definite A without friction (S15); slowly where heavy rests on light.
     Where A_ii ≤ 0 for some row the problem is ``unsuitable``. Returns a ``Solution``.
     Raises ValueError or TypeError for bad arguments. Sources: Cryer, SIAM J. Control 9 (1971) 385, for the
     projected sweep; Jourdan, Alart & Jean, CMAME 155 (1998) 31, for friction.

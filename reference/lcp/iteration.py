@@ -60,8 +60,8 @@ def why_unsuitable(problem):
 def iterate(method, problem, start, tolerance, max_iterations, *, options=(), why_not=why_unsuitable):
     """Run a method and return its Solution.
 
-    method(follow, row, rows, change, A, terms, λ, scale, tolerance, history, *options) -> (iterations, code), see
-    ``operators`` and ``gauss_seidel.sweeps``. options: values, or functions of the problem that give them.
+    method(follow, row, rows, change, A, terms, λ, scale, tolerance, history, *options) -> (iterations, code),
+    see ``operators`` and ``gauss_seidel.sweeps``. options: values, or functions of the problem giving them.
     why_not(problem): a sentence if the method can't treat it, else "".
     """
     λ, tolerance, most = checked(problem, start, tolerance, max_iterations)

@@ -9,8 +9,8 @@ an inverse mass, makes lengths of λ out of w, so that changing units changes no
 max |r_i|; the **residual** is the merit divided by its value at λ⁰ = clip(0, lower, upper). A friction row's
 bounds are ±μ times the λ_n *being judged*, not some earlier one (S17).
 
-On a cone {‖λ_t‖ ≤ μ λ_n}: one d for the block, and the projection on the cone in place of the clip. That alone
-is the convex law (CCP). Coulomb's law (NCP) first adds μ‖w_t‖ to w_n (De Saxcé & Feng 1998): without it a
+On a cone {‖λ_t‖ ≤ μ λ_n}: one d for the block, and the projection on the cone in place of the clip. That is
+the convex law (CCP). Coulomb's law (NCP) first adds μ‖w_t‖ to w_n (De Saxcé & Feng 1998): without it a
 sliding contact would be lifted by μ‖w_t‖.
 
 A small residual bounds the error of λ only through the condition number: on a tall stack 1e-3 may leave λ

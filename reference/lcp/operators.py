@@ -8,8 +8,9 @@ One text of a method serves every form of A. The method takes four functions bef
     rows(A, i, λ_old, x_old, λ, x)                 row i of A λ for two λ, of before and of now
     change(A, i, Δ, x)                             λ_i has changed by Δ: let x follow
 
-For a matrix, dense or sparse, x is λ itself. For the factored operator x is u = M⁻¹ Jᵀ λ, the bodies' velocities: to
-renew a row is then to push two bodies, as engines do, and A is never formed (S7, S8).
+For a matrix, dense or sparse, x is λ itself. For the factored operator x is
+u = M⁻¹ Jᵀ λ, the bodies' velocities: to renew a row is then to push two bodies, as engines do, and A is never
+formed (S7, S8).
 
 Slides S8, S16; lectures/07_iterative_lcp.md.
 """

@@ -16,7 +16,7 @@ from .. import inputs
 SOLVED, RAY, INFEASIBLE, CYCLE, MAX_ITERATIONS, DIVERGED, UNSUITABLE = range(7)
 STATUSES = ("solved", "ray", "infeasible", "cycle", "max_iterations", "diverged", "unsuitable")
 _REASONS = {
-    "solved": "λ solves the problem: its residual is {residual:.2g}, at most the tolerance of {tolerance:.2g}.",
+    "solved": "λ solves the problem: its residual of {residual:.2g} is within the tolerance {tolerance:.2g}.",
     "ray": "The method ran off along a ray: going on, λ grows for ever and no complementary λ comes.",
     "infeasible": "No λ within its bounds makes w what it must be: the problem has no solution.",
     "cycle": "The method came back to where it had been before, and would go round for ever.",
