@@ -57,3 +57,12 @@ def holds(A, b, lower, upper, λ):
         if (w > 0 and λ[i] != lower[i]) or (w < 0 and λ[i] != upper[i]):
             return False
     return True
+
+
+def nearly(A, b, lower, upper, λ, tolerance):
+    """Whether λ solves it but for ``tolerance``, by the definition: for answers that are not isolated."""
+    w = np.asarray(A) @ λ + b
+    inside = np.all(λ >= lower - tolerance) and np.all(λ <= upper + tolerance)
+    up = (w <= tolerance) | (np.abs(λ - lower) <= tolerance)  # w > 0 only at the lower bound
+    down = (w >= -tolerance) | (np.abs(λ - upper) <= tolerance)
+    return bool(inside and up.all() and down.all())

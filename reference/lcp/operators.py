@@ -54,7 +54,7 @@ def arrays(A):
     if scipy.sparse.issparse(A):
         return Sparse(A.indptr.astype(np.uint32), A.indices.astype(np.uint32), A.data)
     n = np.uint32(len(A))
-    return Sparse(np.arange(n + 1, dtype=np.uint32) * n, np.tile(np.arange(n), n), A.ravel())
+    return Sparse(np.arange(n + 1, dtype=np.uint32) * n, np.tile(np.arange(n, dtype=np.uint32), n), A.ravel())
 
 
 @compiled
@@ -104,8 +104,15 @@ def row_factored(A, i, λ, x):
 
 @compiled
 def rows_factored(A, i, λ_old, x_old, λ, x):
-    """Row i of A λ for two λ."""
-    return row_factored(A, i, λ_old, x_old), row_factored(A, i, λ, x)
+    """Row i of A λ for two λ; J is read once."""
+    old, now = A.softness[i] * λ_old[i], A.softness[i] * λ[i]
+    for side in range(A.bodies.shape[1]):
+        body = A.bodies[i, side]
+        if body >= 0:
+            for c in range(A.J.shape[2]):
+                old += A.J[i, side, c] * x_old[body, c]
+                now += A.J[i, side, c] * x[body, c]
+    return old, now
 
 
 @compiled

@@ -9,49 +9,53 @@ from reference.lcp import LCP, ConeProblem
 
 I2, b2 = np.eye(2), np.ones(2)
 BAD_LCP = [
-    (dict(A=np.ones((2, 3)), b=b2), ValueError, "A must be square"),
-    (dict(A=np.ones(2), b=b2), ValueError, "A must be square"),
-    (dict(A=[[1, 2], [3]], b=b2), ValueError, "A must be a square matrix"),
-    (dict(A=scipy.sparse.csr_array(np.ones((2, 3))), b=b2), ValueError, "A must be square"),
-    (dict(A="matrix", b=b2), TypeError, "A must be a dense array"),
-    (dict(A=[["a"]], b=[1]), TypeError, "A must be an array of numbers"),
-    (dict(A=1j * I2, b=b2), TypeError, "A must hold real numbers"),
-    (dict(A=scipy.sparse.csr_array(1j * I2), b=b2), TypeError, "A must hold real numbers"),
-    (dict(A=[[1, np.nan], [0, 1]], b=b2), ValueError, "A must hold finite"),
-    (dict(A=scipy.sparse.csr_array([[np.inf, 0], [0, 1]]), b=b2), ValueError, "A must hold finite"),
-    (dict(A=I2, b=np.ones(3)), ValueError, "b must have shape"),
-    (dict(A=I2, b=1.0), ValueError, "b must have shape"),
-    (dict(A=I2, b=[1, np.inf]), ValueError, "b must hold finite"),
-    (dict(A=I2, b=b2, lower=np.nan), ValueError, "lower must not hold NaN"),
-    (dict(A=I2, b=b2, upper=[1, np.nan]), ValueError, "upper must not hold NaN.*row 1"),
-    (dict(A=I2, b=b2, lower=[0, 2], upper=1), ValueError, "lower must be at most upper.*row 1"),
-    (dict(A=I2, b=b2, upper=-1), ValueError, "lower must be at most upper"),
-    (dict(A=I2, b=b2, lower=np.inf), ValueError, "lower must leave room"),
-    (dict(A=I2, b=b2, lower=-np.inf, upper=-np.inf), ValueError, "upper must leave room"),
-    (dict(A=I2, b=b2, lower=[0, 0, 0]), ValueError, "lower must be a number or have shape"),
-    (dict(A=I2, b=b2, upper="high"), TypeError, "upper must be a number"),
-    (dict(A=I2, b=b2, friction=3), TypeError, "friction must be three things"),
-    (dict(A=I2, b=b2, friction=([1], [0], -0.1)), ValueError, "mu must be at least 0"),
-    (dict(A=I2, b=b2, friction=([1], [0], np.nan)), ValueError, "mu must be a finite number"),
-    (dict(A=I2, b=b2, friction=([1], [0], [0.1, 0.2])), ValueError, "mu must have shape"),
-    (dict(A=I2, b=b2, friction=([1], [2], 0.1)), ValueError, "normals must be from 0 to 1"),
-    (dict(A=I2, b=b2, friction=([-1], [0], 0.1)), ValueError, "rows must be from 0 to 1"),
-    (dict(A=I2, b=b2, friction=([1], [1], 0.1)), ValueError, "row 1 is its own normal"),
-    (dict(A=np.eye(3), b=np.ones(3), friction=([1, 2], [0, 1], 0.1)), ValueError, "normal of another"),
-    (dict(A=I2, b=b2, friction=([1, 1], [0, 0], 0.1)), ValueError, "twice"),
-    (dict(A=I2, b=b2, friction=([1], [0, 0], 0.1)), ValueError, "a normal for each row"),
-    (dict(A=I2, b=b2, friction=([0.5], [0], 0.1)), TypeError, "whole numbers"),
+    ({"A": np.ones((2, 3)), "b": b2}, ValueError, "A must be square"),
+    ({"A": np.ones(2), "b": b2}, ValueError, "A must be square"),
+    ({"A": [[1, 2], [3]], "b": b2}, ValueError, "A must be a square matrix"),
+    ({"A": scipy.sparse.csr_array(np.ones((2, 3))), "b": b2}, ValueError, "A must be square"),
+    ({"A": "matrix", "b": b2}, TypeError, "A must be a dense array"),
+    ({"A": [["a"]], "b": [1]}, TypeError, "A must be an array of numbers"),
+    ({"A": 1j * I2, "b": b2}, TypeError, "A must hold real numbers"),
+    ({"A": scipy.sparse.csr_array(1j * I2), "b": b2}, TypeError, "A must hold real numbers"),
+    ({"A": [[1, np.nan], [0, 1]], "b": b2}, ValueError, "A must hold finite"),
+    ({"A": scipy.sparse.csr_array([[np.inf, 0], [0, 1]]), "b": b2}, ValueError, "A must hold finite"),
+    ({"A": I2, "b": np.ones(3)}, ValueError, "b must have shape"),
+    ({"A": I2, "b": 1.0}, ValueError, "b must have shape"),
+    ({"A": I2, "b": [1, np.inf]}, ValueError, "b must hold finite"),
+    ({"A": I2, "b": b2, "lower": np.nan}, ValueError, "lower must not hold NaN"),
+    ({"A": I2, "b": b2, "upper": [1, np.nan]}, ValueError, "upper must not hold NaN.*row 1"),
+    ({"A": I2, "b": b2, "lower": [0, 2], "upper": 1}, ValueError, "lower must be at most upper.*row 1"),
+    ({"A": I2, "b": b2, "upper": -1}, ValueError, "lower must be at most upper"),
+    ({"A": I2, "b": b2, "lower": np.inf}, ValueError, "lower must leave room"),
+    ({"A": I2, "b": b2, "lower": -np.inf, "upper": -np.inf}, ValueError, "upper must leave room"),
+    ({"A": I2, "b": b2, "lower": [0, 0, 0]}, ValueError, "lower must be a number or have shape"),
+    ({"A": I2, "b": b2, "upper": "high"}, TypeError, "upper must be a number"),
+    ({"A": I2, "b": b2, "friction": 3}, TypeError, "friction must be three things"),
+    ({"A": I2, "b": b2, "friction": ([1], [0], -0.1)}, ValueError, "mu must be at least 0"),
+    ({"A": I2, "b": b2, "friction": ([1], [0], np.nan)}, ValueError, "mu must be a finite number"),
+    ({"A": I2, "b": b2, "friction": ([1], [0], [0.1, 0.2])}, ValueError, "mu must have shape"),
+    ({"A": I2, "b": b2, "friction": ([1], [2], 0.1)}, ValueError, "normals must be from 0 to 1"),
+    ({"A": I2, "b": b2, "friction": ([-1], [0], 0.1)}, ValueError, "rows must be from 0 to 1"),
+    ({"A": I2, "b": b2, "friction": ([1], [1], 0.1)}, ValueError, "row 1 is its own normal"),
+    ({"A": np.eye(3), "b": np.ones(3), "friction": ([1, 2], [0, 1], 0.1)}, ValueError, "normal of another"),
+    ({"A": I2, "b": b2, "friction": ([1, 1], [0, 0], 0.1)}, ValueError, "twice"),
+    ({"A": I2, "b": b2, "friction": ([1], [0, 0], 0.1)}, ValueError, "a normal for each row"),
+    ({"A": I2, "b": b2, "friction": ([0.5], [0], 0.1)}, TypeError, "whole numbers"),
 ]
 BAD_CONE = [
-    (dict(A=np.eye(3), b=np.ones(3), mu=-1), ValueError, "mu must be at least 0"),
-    (dict(A=np.eye(3), b=np.ones(3), mu=[np.nan]), ValueError, "mu must hold finite"),
-    (dict(A=np.eye(3), b=np.ones(3), mu=np.inf), ValueError, "mu must be a finite"),
-    (dict(A=np.eye(3), b=np.ones(3), mu=[0.5, 0.5]), ValueError, "b must have blocks"),
-    (dict(A=np.eye(5), b=np.ones(5), mu=0.5), ValueError, "b must have blocks"),
-    (dict(A=np.eye(3), b=np.ones(3), mu=0.5, law="coulomb"), ValueError, "law must be one of ccp, ncp"),
-    (dict(A=np.eye(3), b=np.ones(3), mu=0.5, dimension=4), ValueError, "dimension must be 3"),
-    (dict(A=np.eye(3), b=np.ones(3), mu=0.5, dimension=2), ValueError, "b must have blocks"),
-    (dict(A=np.eye(3), b=np.ones(2), mu=0.5), ValueError, "b must have shape"),
+    ({"A": np.eye(3), "b": np.ones(3), "mu": -1}, ValueError, "mu must be at least 0"),
+    ({"A": np.eye(3), "b": np.ones(3), "mu": [np.nan]}, ValueError, "mu must hold finite"),
+    ({"A": np.eye(3), "b": np.ones(3), "mu": np.inf}, ValueError, "mu must be a finite"),
+    ({"A": np.eye(3), "b": np.ones(3), "mu": [0.5, 0.5]}, ValueError, "b must have blocks"),
+    ({"A": np.eye(5), "b": np.ones(5), "mu": 0.5}, ValueError, "b must have blocks"),
+    (
+        {"A": np.eye(3), "b": np.ones(3), "mu": 0.5, "law": "coulomb"},
+        ValueError,
+        "law must be one of ccp, ncp",
+    ),
+    ({"A": np.eye(3), "b": np.ones(3), "mu": 0.5, "dimension": 4}, ValueError, "dimension must be 3"),
+    ({"A": np.eye(3), "b": np.ones(3), "mu": 0.5, "dimension": 2}, ValueError, "b must have blocks"),
+    ({"A": np.eye(3), "b": np.ones(2), "mu": 0.5}, ValueError, "b must have shape"),
 ]
 
 
@@ -67,7 +71,9 @@ def test_bad_cone_problem(arguments, error, words):
         ConeProblem(**arguments)
 
 
-@pytest.mark.parametrize("form", [f"{name}_array" for name in "bsr coo csc csr dia dok lil".split()])
+@pytest.mark.parametrize(
+    "form", [f"{name}_array" for name in ["bsr", "coo", "csc", "csr", "dia", "dok", "lil"]]
+)
 def test_any_sparse_format(form):
     A = np.array([[2.0, 0, 1], [0, 3, 0], [1, 0, 0]])
     problem = LCP(getattr(scipy.sparse, form)(A), [1, 2, 3])
