@@ -23,8 +23,14 @@ is the whole solver. The kernel is written once for every form of A,
 
     kernel(follow, row, rows, change, A, terms, λ, scale, tolerance, history, *options) -> (iterations, code)
 
-where the first four come from ``operators``, ``terms`` is what stands beside A, λ is start and answer, and
-history[k] is the residual (merit over ``scale``) after k iterations, of which the last is left to ``finish``.
+For example, all of ``sor`` but its docstring:
+
+    def sor(problem, start=None, tolerance=1e-10, max_iterations=1000, *, omega=1.6, every=1):
+        options = natural_order, inputs.number("omega", omega, above=0), inputs.whole("every", every, least=1)
+        return iterate(sweeps, problem, start, tolerance, max_iterations, options=options)
+
+The first four of the kernel come from ``operators``, ``terms`` is what stands beside A, λ is start and
+answer, and history[k] is the residual (merit over ``scale``) after k iterations; the last is for ``finish``.
 A step of a simulation takes the same kernel, ``for_form(kernel, Factors)``, by ``bind``, and calls it on
 arrays of its own.
 

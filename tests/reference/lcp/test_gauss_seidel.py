@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import lcp_enumeration
 from reference.cases.lcp_problems import LCP_PROBLEMS
-from reference.compiled import plain
+from reference.compiled import bind, compiled, plain
 from reference.factored import Factored
 from reference.lcp import LCP, SOLVERS, STATUSES, gauss_seidel
 from reference.lcp.gauss_seidel import natural_order, sweeps
@@ -156,6 +156,21 @@ def test_compiled_equals_plain():
         kernel(A, problem.terms, λ_2, problem.scale, 1e-30, history_2, *options)
         assert np.allclose(λ, λ_2, rtol=1e-12, atol=1e-15)
         assert np.allclose(history[:5], history_2[:5], rtol=1e-12, atol=1e-15, equal_nan=True)
+
+
+@compiled
+def run(solve, steps, A, terms, λ, scale, history, order, counts):
+    """What a simulation does with a kernel: it calls it each step, from where λ was (a warm start)."""
+    for k in range(steps):
+        counts[k], _ = solve(A, terms, λ, scale, 1e-10, history, order, 1.0, 1)
+
+
+def test_a_step_binds_the_kernel():
+    problem = LCP_PROBLEMS["column"](5).problem
+    A, λ, counts = arrays(problem.A), np.zeros(5), np.zeros(2)
+    steps = bind(run, for_form(sweeps, type(A)))
+    steps(2, A, problem.terms, λ, problem.scale, np.empty(901), natural_order(problem), counts)
+    assert list(counts) == [gauss_seidel(problem).iterations, 0] and np.allclose(λ, [5, 4, 3, 2, 1])
 
 
 @pytest.mark.parametrize("factor", [1e-12, 1e12])
