@@ -11,9 +11,9 @@ import numpy as np
 
 from .bodies import planar
 from .compiled import compiled
-from .equation import add_rows, fill_mass_rows, row_times
+from .equation import fill_mass_rows
 from .rotation import exponential, multiply, quaternion, store_quaternion
-from .rows import fill_rows
+from .rows import add_rows, fill_rows, row_times
 
 MOST_PROJECTIONS = 20
 

@@ -12,7 +12,8 @@ Slides S7–S9; lectures/04_embedding.md.
 
 from .bodies import add_gyroscopic_torque, solve_mass
 from .compiled import compiled
-from .rows import dot, fill_rows
+from .rotation import dot
+from .rows import add_row, add_rows, fill_rows, row_times
 
 
 @compiled
@@ -80,40 +81,3 @@ def divide_by_inertia(inertia, frame, i, J, B, k, side):
     s0, s1, s2 = dot(R0, n) / inertia[i, 0], dot(R1, n) / inertia[i, 1], dot(R2, n) / inertia[i, 2]
     for c in range(3):
         B[k, side, 3 + c] = frame[i, 3 * c] * s0 + frame[i, 3 * c + 1] * s1 + frame[i, 3 * c + 2] * s2
-
-
-@compiled
-def row_times(J, bodies, k, v, ω):
-    """Row k of J u, from velocities to the constraint (S7); u given as v (M, d) and ω (r, 3) or (r, 1)."""
-    d = v.shape[1]
-    w = 0.0
-    for side in range(2):
-        i = bodies[k, side]
-        if i >= 0:
-            for c in range(d):
-                w += J[k, side, c] * v[i, c]
-            if i < len(ω):
-                for c in range(ω.shape[1]):
-                    w += J[k, side, d + c] * ω[i, c]
-    return w
-
-
-@compiled
-def add_row(J, bodies, k, λ, f, τ):
-    """Add row k's part of Jᵀ λ, from the constraint back to the bodies (S7); λ a number."""
-    d = f.shape[1]
-    for side in range(2):
-        i = bodies[k, side]
-        if i >= 0:
-            for c in range(d):
-                f[i, c] += J[k, side, c] * λ
-            if i < len(τ):
-                for c in range(τ.shape[1]):
-                    τ[i, c] += J[k, side, d + c] * λ
-
-
-@compiled
-def add_rows(J, bodies, λ, f, τ):
-    """Jᵀ λ added to f (M, d) and τ (r, 3) or (r, 1). With B for J: M⁻¹ Jᵀ λ added to velocities."""
-    for k in range(len(λ)):
-        add_row(J, bodies, k, λ[k], f, τ)
