@@ -11,7 +11,7 @@ import numpy as np
 
 from .bodies import planar, times
 from .compiled import compiled
-from .embedding import add_rows, factorise_rows, fill_mass_rows, row_times, rows_of, solve_rows
+from .embedding import factorise_rows, fill_mass_rows, solve_rows
 from .joints import DISTANCE, LINEAR
 from .rotation import (
     exponential,
@@ -23,7 +23,7 @@ from .rotation import (
     store_quaternion,
     vector,
 )
-from .rows import fill_rows
+from .rows import add_rows, fill_rows, row_times
 
 MOST_PROJECTIONS = 20
 CLOSE = 1e-9  # of the mechanism's size: so near, an iteration that doesn't help ends it
@@ -33,47 +33,48 @@ CLOSE = 1e-9  # of the mechanism's size: so near, an iteration that doesn't help
 def project(system, state):
     """Bring positions and velocities back to where all joints hold. Returns (iterations, the worst |φ| left).
 
-    |φ| is relative to the mechanism's size; motors have none.
+    |φ| is in m over the mechanism's size, or in rad; motors have none.
     """
     mechanism = system.mechanism
-    index, law, J, φ, _ = rows_of(mechanism)
+    jacobian, bodies, speed = mechanism.jacobian, mechanism.rows.bodies, mechanism.rows.speed
+    B, v, ω, right, change = mechanism.B, mechanism.v, mechanism.ω, mechanism.right, mechanism.change
     worst, iterations = np.inf, 0
     for iteration in range(MOST_PROJECTIONS):
-        fill_rows(mechanism.rows, state, mechanism.jacobian)
-        before, worst = worst, fill_position_side(index, law, φ, mechanism.scale, mechanism.right)
+        fill_rows(mechanism.rows, state, jacobian)
+        before, worst = worst, fill_position_side(mechanism.rows.kind, speed, jacobian.φ, mechanism.scale, right)
         if iteration > 0 and (worst <= mechanism.tolerance or (worst < CLOSE and not worst < before)):
             break
-        fill_mass_rows(index, J, system.mass, system.inertia, mechanism.jacobian.frame, mechanism.B)
+        fill_mass_rows(bodies, jacobian.J, system.mass, system.inertia, jacobian.frame, B)
         factorise_rows(system, mechanism)
-        solve_rows(system, mechanism, mechanism.change)
-        mechanism.v[:] = 0
-        mechanism.ω[:] = 0
-        add_rows(index, mechanism.B, mechanism.change, mechanism.v, mechanism.ω)
-        displace(state, mechanism.v, mechanism.ω)
+        solve_rows(system, mechanism, change)
+        v[:] = 0
+        ω[:] = 0
+        add_rows(B, bodies, change, v, ω)
+        displace(state, v, ω)
         iterations += 1
-    fill_velocity_side(index, law, J, state.v, state.ω, mechanism.right)
-    solve_rows(system, mechanism, mechanism.change)
-    add_rows(index, mechanism.B, mechanism.change, state.v, state.ω)
+    fill_velocity_side(jacobian.J, bodies, speed, state.v, state.ω, right)
+    solve_rows(system, mechanism, change)
+    add_rows(B, bodies, change, state.v, state.ω)
     fill_momenta(system.inertia, state)
     return iterations, worst
 
 
 @compiled
-def fill_position_side(index, law, φ, scale, right):
+def fill_position_side(kind, speed, φ, scale, right):
     """right = −φ, 0 for motors, which have no φ. Returns the largest: m over the scale, or rad."""
     worst = 0.0
     for k in range(len(right)):
-        right[k] = -φ[k] if law[k, 3] == 0 else 0.0
-        long = index[k, 0] == LINEAR or index[k, 0] == DISTANCE
+        right[k] = -φ[k] if speed[k] == 0 else 0.0
+        long = kind[k] == LINEAR or kind[k] == DISTANCE
         worst = max(worst, abs(right[k]) / scale if long else abs(right[k]))
     return worst
 
 
 @compiled
-def fill_velocity_side(index, law, J, v, ω, right):
+def fill_velocity_side(J, bodies, speed, v, ω, right):
     """right = speed − J u."""
     for k in range(len(right)):
-        right[k] = law[k, 3] - row_times(index, J, k, v, ω)
+        right[k] = speed[k] - row_times(J, bodies, k, v, ω)
 
 
 @compiled

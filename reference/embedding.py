@@ -11,7 +11,7 @@ Slides S7–S9; lectures/04_embedding.md.
 from .bodies import add_gyroscopic_torque
 from .compiled import compiled
 from .multipliers import MINIMUM_NORM, factorise, substitute
-from .rows import fill_rows
+from .rows import add_row, add_rows, fill_rows, row_times
 
 
 @compiled
@@ -21,17 +21,19 @@ def constrained_force(force, system, t, state, f, τ):
     force(system, t, state, f, τ) fills in the external one. f (M, d) in N, τ (r, 3) or (r, 1) in N m.
     """
     mechanism = system.mechanism
+    rows, jacobian, B = mechanism.rows, mechanism.jacobian, mechanism.B
     force(system, t, state, f, τ)
-    fill_rows(mechanism.rows, state, mechanism.jacobian)
-    index, law, J, φ, rate = rows_of(mechanism)
-    add_joint_springs(index, law, J, φ, len(mechanism.λ), state.v, state.ω, f, τ)
-    fill_mass_rows(index, J, system.mass, system.inertia, mechanism.jacobian.frame, mechanism.B)
+    fill_rows(rows, state, jacobian)
+    J, bodies = jacobian.J, rows.bodies
+    if len(jacobian.φ) > len(mechanism.λ):
+        add_joint_springs(rows.stiffness, rows.damping, jacobian.φ, J, bodies, len(mechanism.λ), state, f, τ)
+    fill_mass_rows(bodies, J, system.mass, system.inertia, jacobian.frame, B)
     copy_rows(τ, mechanism.ω)
     add_gyroscopic_torque(system, state, mechanism.ω)
-    fill_acceleration_side(index, mechanism.B, rate, f, mechanism.ω, mechanism.right)
+    fill_acceleration_side(B, bodies, jacobian.rate, f, mechanism.ω, mechanism.right)
     factorise_rows(system, mechanism)
     solve_rows(system, mechanism, mechanism.λ)
-    add_rows(index, J, mechanism.λ, f, τ)
+    add_rows(J, bodies, mechanism.λ, f, τ)
 
 
 @compiled
@@ -57,13 +59,6 @@ def solve_rows(system, mechanism, λ):
 
 
 @compiled
-def rows_of(mechanism):
-    """index, law, J, φ and J̇ u of a mechanism's rows."""
-    rows, jacobian = mechanism.rows, mechanism.jacobian
-    return rows.index, rows.law, jacobian.J, jacobian.φ, jacobian.rate
-
-
-@compiled
 def copy_rows(a, to):
     """Copy a two-dimensional array."""
     for i in range(len(a)):
@@ -72,27 +67,27 @@ def copy_rows(a, to):
 
 
 @compiled
-def fill_acceleration_side(index, B, rate, f, τ, right):
+def fill_acceleration_side(B, bodies, rate, f, τ, right):
     """right = −b = −(J M⁻¹ f_e + J̇ u); τ with the gyroscopic torque."""
     for k in range(len(right)):
-        right[k] = -row_times(index, B, k, f, τ) - rate[k]
+        right[k] = -row_times(B, bodies, k, f, τ) - rate[k]
 
 
 @compiled
-def add_joint_springs(index, law, J, φ, first, v, ω, f, τ):
+def add_joint_springs(stiffness, damping, φ, J, bodies, first, state, f, τ):
     """Add Jᵀ λ of the soft rows, from ``first`` on, whose λ = −stiffness φ − damping w is known."""
     for k in range(first, len(φ)):
-        w = row_times(index, J, k, v, ω)
-        add_row(index, J, k, -law[k, 1] * φ[k] - law[k, 2] * w, f, τ)
+        w = row_times(J, bodies, k, state.v, state.ω)
+        add_row(J, bodies, k, -stiffness[k] * φ[k] - damping[k] * w, f, τ)
 
 
 @compiled
-def fill_mass_rows(index, J, mass, inertia, frame, B):
+def fill_mass_rows(bodies, J, mass, inertia, frame, B):
     """B = J M⁻¹, row by row."""
     d = 2 if B.shape[2] == 3 else 3
     for k in range(len(B)):
         for side in range(2):
-            i = index[k, 1 + side]
+            i = bodies[k, side]
             if i < 0:
                 continue
             for c in range(d):
@@ -114,40 +109,3 @@ def divide_by_inertia(inertia, frame, i, J, B, k, side):
     s2 = (frame[i, 2] * n0 + frame[i, 5] * n1 + frame[i, 8] * n2) / inertia[i, 2]
     for c in range(3):
         B[k, side, 3 + c] = frame[i, 3 * c] * s0 + frame[i, 3 * c + 1] * s1 + frame[i, 3 * c + 2] * s2
-
-
-@compiled
-def row_times(index, J, k, v, ω):
-    """Row k of J u, from velocities to the constraint (S7); u given as v (M, d) and ω (r, 3) or (r, 1)."""
-    d = v.shape[1]
-    w = 0.0
-    for side in range(2):
-        i = index[k, 1 + side]
-        if i >= 0:
-            for c in range(d):
-                w += J[k, side, c] * v[i, c]
-            if i < len(ω):
-                for c in range(ω.shape[1]):
-                    w += J[k, side, d + c] * ω[i, c]
-    return w
-
-
-@compiled
-def add_row(index, J, k, λ, f, τ):
-    """Add row k's part of Jᵀ λ, from the constraint back to the bodies (S7); λ a number."""
-    d = f.shape[1]
-    for side in range(2):
-        i = index[k, 1 + side]
-        if i >= 0:
-            for c in range(d):
-                f[i, c] += J[k, side, c] * λ
-            if i < len(τ):
-                for c in range(τ.shape[1]):
-                    τ[i, c] += J[k, side, d + c] * λ
-
-
-@compiled
-def add_rows(index, J, λ, f, τ):
-    """Jᵀ λ added to f (M, d) and τ (r, 3) or (r, 1). With B for J: M⁻¹ Jᵀ λ added to velocities."""
-    for k in range(len(λ)):
-        add_row(index, J, k, λ[k], f, τ)

@@ -14,7 +14,7 @@ import numpy as np
 from .compiled import compiled
 from .joints import DISTANCE, LINEAR, TURN
 from .multipliers import Factor
-from .rows import Jacobian, Rows, fill_rows, make_jacobian, make_rows
+from .rows import Jacobian, Rows, fill_rows, make_jacobian
 
 
 class Mechanism(NamedTuple):
@@ -118,10 +118,24 @@ def bounded_rows(bodies):
 
 def _lay_out(bodies, made):
     """Rows from (joint's number, joint, row, what differs from a row that holds)."""
-    rows = make_rows(len(made))
-    for k, (number, joint, row, law) in enumerate(made):
+    m = len(made)
+    rows = Rows(
+        kind=np.array([row.kind for _, _, row, _ in made], dtype=int),
+        bodies=np.full((m, 2), -1),
+        joint=np.array([number for number, _, _, _ in made], dtype=int),
+        p=np.zeros((m, 2, 3)),
+        e=np.zeros((m, 3)),
+        e2=np.zeros((m, 3)),
+        c=np.zeros((m, 3)),
+        target=np.zeros(m),
+        stiffness=np.zeros(m),
+        damping=np.zeros(m),
+        speed=np.zeros(m),
+        lower=np.full(m, -np.inf),
+        upper=np.full(m, np.inf),
+    )
+    for k, (_, joint, row, law) in enumerate(made):
         i, j = joint.ends
-        rows.kind[k], rows.joint[k] = row.kind, number
         rows.bodies[k] = [-1 if body is None else bodies.slot.get(body, -1) for body in (i, j)]
         for side, (body, p) in enumerate(((i, row.p_i), (j, row.p_j))):
             if p is not None:
