@@ -19,7 +19,9 @@ SINGULAR = 1e-14  # a pivot, over what was there before the elimination, that is
 class Factor(NamedTuple):
     """A solver's own room; each solver says what it keeps where."""
 
-    meeting: np.ndarray  # (s, 5) int: rows p ≥ q, which of its bodies p and q share (0: i, 1: j), place in values
+    meeting: (
+        np.ndarray
+    )  # (s, 5) int: rows p ≥ q, which of its bodies p and q share (0: i, 1: j), place in values
     pattern: np.ndarray  # (·, ·) int
     links: np.ndarray  # (·, ·) int
     values: np.ndarray  # (·,)
@@ -28,7 +30,9 @@ class Factor(NamedTuple):
 def make_factor(meeting=(), pattern=(), links=(), values=0):
     """Room for these tables of whole numbers and so many values."""
     tables = (np.array(table, dtype=int) for table in (meeting, pattern, links))
-    tables = (np.ascontiguousarray(t if t.ndim == 2 else t.reshape(len(t), -1 if t.size else 1)) for t in tables)
+    tables = (
+        np.ascontiguousarray(t if t.ndim == 2 else t.reshape(len(t), -1 if t.size else 1)) for t in tables
+    )
     return Factor(*tables, np.zeros(values))
 
 

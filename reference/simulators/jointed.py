@@ -70,7 +70,10 @@ class Joints:
         """(status, reason) of a run that ended, or None, where the joints are not what ended it."""
         smallest, gap = self.mechanism.watch[0], self.mechanism.watch[3]
         if smallest <= 1e-14:
-            return "singular", "the joints came to depend on each other, so that their forces are not unique, in"
+            return (
+                "singular",
+                "the joints came to depend on each other, so that their forces are not unique, in",
+            )
         if gap > 0:
             return "torn", f"a joint stayed open by {gap:.2g} of the mechanism's size in"
         return None

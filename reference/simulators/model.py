@@ -61,7 +61,11 @@ class Model:
             f"{self.moving} moving bodies {where}, {self.rotating} of them rotate, {self.static} static: "
             f"{self.velocities} velocities in u",
             f"simulator {self.simulator}, integrator {self.integrator}: {self.why}",
-            *([f"solver {self.solver} for the {self.rows} rows of the joints: {self.why_solver}"] if self.solver else []),
+            *(
+                [f"solver {self.solver} for the {self.rows} rows of the joints: {self.why_solver}"]
+                if self.solver
+                else []
+            ),
             f"{'term':<24}{'count':>8}{'operations':>12}",
             *(f"{term.name:<24}{term.count:>8}{term.operations:>12}" for term in self.terms),
             f"about {self.operations} operations a step",
