@@ -38,8 +38,8 @@ class Equation(NamedTuple):
     """M x − h Jᵀ λ = right and J x = wanted, and what follows: A λ + b = 0. N velocities, m rows.
 
     The N columns are all v, of the bodies that rotate first, then all ω. M (N, N) and J (m, N): dense, or
-    SciPy's sparse arrays; A: the same, or a ``Factored`` of which h has been made part. φ (m,): how far the rows are
-    from holding, m or rad. J x and wanted are ẇ or w, m/s² or m/s, rad/s² or rad/s.
+    SciPy's sparse arrays; A: the same, or a ``Factored`` with h in it. φ (m,): how far the rows are from
+    holding, m or rad. J x and wanted are ẇ or w, m/s² or m/s, rad/s² or rad/s.
     """
 
     M: object
