@@ -93,7 +93,7 @@ def _four_bar(A, B, C, D):
 
 
 def net():
-    """Sixteen points in a square grid, held by rods to those beside and under them, hung up at two corners."""
+    """Sixteen points in a square grid, held by rods to those beside and under them, hung up at two."""
     scene = Scene(gravity=(0, -9.81))
     number = {}
     for x in range(4):
@@ -152,7 +152,7 @@ def mass_matrix(scene, bodies):
 
 
 def chain_rates(n, end, length=1.0, g=9.81):
-    """ẏ of y = (angles, their rates) of the planar ``chain``, in minimal coordinates: Lagrange's equations."""
+    """ẏ of y = (angles, their rates) of the planar ``chain``, in minimal coordinates, by Lagrange."""
     m = np.ones(n)
     m[-1] = end
     inertia = m * (length**2 + 0.1**2) / 12
