@@ -59,7 +59,7 @@ def cache_directory():
     return folder if os.access(folder, os.W_OK) else None
 
 
-def compiled(function):
+def compiled(function, inlined=True):
     """Compile a function with Numba on its first call, and cache it; without Numba, the function itself.
 
     Division by zero gives inf or nan, as NumPy does, in both forms. Functions are inlined into their callers:
@@ -72,9 +72,17 @@ def compiled(function):
     folder = cache_directory()
     before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, str(folder or "")
     try:
-        return numba.njit(function, cache=folder is not None, error_model="numpy", forceinline=True)
+        return numba.njit(function, cache=folder is not None, error_model="numpy", forceinline=inlined)
     finally:
         numba.config.CACHE_DIR = before
+
+
+def compiled_apart(function):
+    """As ``compiled``, but called, not inlined: for long loops over plain arrays, which several others call.
+
+    It keeps the callers' compiling short, and costs some 10 ns an array in each call.
+    """
+    return compiled(function, inlined=False)
 
 
 def plain(function):

@@ -1,83 +1,191 @@
-"""Embedding: the equation of motion multiplied by J M⁻¹ and allied with the joints' conditions (S8).
+"""The equation of motion with joints, as matrices to look at: A and b in three forms, and two ways to solve.
 
     M u̇ = f_e + Jᵀ λ,   J u̇ + J̇ u = 0      ⇒      A λ + b = 0,   A = J M⁻¹ Jᵀ,   b = J M⁻¹ f_e + J̇ u
 
-b is what the rate of w would be without the joints. In a time-stepping method the same stands for impulses:
-A is multiplied by Δt, and b is the w at the end of a step without joints.
+says it for accelerations. A time-stepping method says it for the velocities u⁺ at the end of a step, with J as
+it is at the start, so that J̇ u does not appear:
 
-The kernels work row by row and never form M; ``equation`` below puts the same into matrices, to be looked at.
+    M u⁺ = M u + Δt f_e + Δt Jᵀ λ,   J u⁺ = speed − share φ/Δt
+        ⇒   w⁺ = A λ + b,   A = Δt J M⁻¹ Jᵀ,   b = J (u + Δt M⁻¹ f_e) + share φ/Δt − speed,   w⁺ = 0
+
+Both are M x − h Jᵀ λ = right, J x = wanted: x is u̇ and h is 1, or x is u⁺ and h is Δt. λ is a force in both,
+N or N m; Δt λ is the impulse. What runs in a simulation is in ``embedding``, row by row; here are matrices.
 
 Slides S7–S9; lectures/04_embedding.md.
 """
 
-from .bodies import add_gyroscopic_torque, solve_mass
-from .compiled import compiled
-from .rotation import dot
-from .rows import add_row, add_rows, fill_rows, row_times
+from types import SimpleNamespace
+from typing import NamedTuple
+
+import numpy as np
+import scipy.sparse
+import scipy.sparse.linalg
+
+from . import inputs
+from .bodies import add_gyroscopic_torque
+from .embedding import add_joint_springs, fill_mass_rows
+from .factored import Factored
+from .forces import external_force, with_user_forces
+from .layout import Bodies
+from .mechanism import rigid_rows, soft_rows
+from .rows import dense, fill_rows, make_jacobian
+
+FORMS = ("dense", "sparse", "factored")
+SINGULAR = 1e-11  # of A's largest eigenvalue: what is smaller is rounding
 
 
-@compiled
-def constrained_force(force, factorise, substitute, system, t, state, f, τ):
-    """f_e + f_c: the external force, and the constraint force Jᵀ λ that keeps the joints' accelerations (S8).
+class Equation(NamedTuple):
+    """M x − h Jᵀ λ = right and J x = wanted, and what follows: A λ + b = 0. N velocities, m rows.
 
-    force(system, t, state, f, τ) fills in the external one; factorise and substitute solve A λ = right (see
-    ``multipliers``). f (M, d) in N, τ (r, 3) or (r, 1) in N m.
+    The N columns are all v, of the bodies that rotate first, then all ω. M (N, N) and J (m, N): dense or SciPy
+    sparse arrays; A: the same, or a ``Factored`` of which h has been made part. φ (m,): how far the rows are
+    from holding, m or rad. J x and wanted are rates of w, or w itself, m/s² or m/s, rad/s² or rad/s.
     """
-    mechanism = system.mechanism
-    rows, jacobian = mechanism.rigid, mechanism.jacobian
-    force(system, t, state, f, τ)
-    add_joint_springs(mechanism, state, f, τ)
-    mechanism.v[:], mechanism.ω[:] = f, τ
-    add_gyroscopic_torque(system, state, mechanism.ω)
-    solve_mass(system, state.q, mechanism.v, mechanism.ω)  # u̇ without joints
+
+    M: object
+    J: object
+    right: np.ndarray
+    wanted: np.ndarray
+    A: object
+    b: np.ndarray
+    h: float
+    φ: np.ndarray
+
+
+def equation(scene, state=None, *, form="dense", step=None, share=0.0, time=0.0):
+    """The ``Equation`` of a scene with joints.
+
+    state: all bodies, from ``sim.state`` or ``run.state()``; None: as the scene starts. form: "dense",
+    "sparse" or "factored", made in three ways that agree. step: Δt, s, for velocities; None: accelerations.
+    share: of φ to be taken back in a step (0 … 1, velocities only). time: s, for forces that depend on it.
+    Limits and motors of limited force are not in it. Raises ValueError or TypeError, naming the argument.
+    """
+    inputs.choice("form", form, FORMS)
+    share = inputs.number("share", share, least=0)
+    if step is None and share:
+        raise ValueError(
+            f"share must be 0 where step is None, since accelerations have no step, but is {share!r}"
+        )
+    h = 1.0 if step is None else inputs.number("step", step, above=0)
+    bodies = Bodies(scene)
+    now = bodies.state() if state is None else _laid_out(bodies, state)
+    rows = rigid_rows(bodies)
+    jacobian = _jacobian(bodies, rows, now)
+    u, force = now.u.copy(), _external(scene, bodies, now, time)
+    M = _mass_matrix(bodies, jacobian.frame)
+    J = scipy.sparse.csr_array(dense(jacobian.J, rows.bodies, len(bodies.moving), len(bodies.rotating)))
+    if step is None:
+        right, wanted = force, -jacobian.rate
+    else:
+        right, wanted = M @ u + h * force, rows.speed - share * jacobian.φ / h
+    if form == "dense":
+        M, J = M.toarray(), J.toarray()
+        A = h * J @ np.linalg.solve(M, J.T)
+        b = J @ np.linalg.solve(M, right) - wanted
+    elif form == "sparse":
+        inverse = _inverse(bodies, M)
+        A = h * (J @ inverse @ J.T)
+        b = J @ (inverse @ right) - wanted
+    else:
+        B = np.zeros_like(jacobian.J)
+        fill_mass_rows(rows.bodies, jacobian.J, bodies.system.mass, bodies.system.inertia, jacobian.frame, B)
+        A = Factored(rows.bodies, jacobian.J, h * B, len(bodies.moving))
+        b = dense(B, rows.bodies, len(bodies.moving), len(bodies.rotating)) @ right - wanted
+    return Equation(M, J, right, wanted, A, b, h, jacobian.φ)
+
+
+def solve_schur(equation):
+    """x and λ by way of A λ = −b, then x = M⁻¹ (right + h Jᵀ λ).
+
+    Of many λ the shortest, where A is dense or factored. Raises ValueError where a sparse A is singular.
+    """
+    A, b = equation.A, equation.b
+    if isinstance(A, Factored):
+        operator = scipy.sparse.linalg.LinearOperator(A.shape, matvec=lambda λ: A @ λ, dtype=float)
+        λ, failed = scipy.sparse.linalg.minres(operator, -b, rtol=1e-14, maxiter=20 * len(b) + 100)
+        if failed:
+            raise ValueError(
+                f"A λ = −b has not been solved by MINRES in {failed} iterations: try form='dense'"
+            )
+    elif scipy.sparse.issparse(A):
+        λ = _solve_sparse(A, -b, "A")
+    else:
+        λ = np.linalg.lstsq(A, -b, rcond=SINGULAR)[0]
+    force = equation.right + equation.h * (equation.J.T @ λ)
+    if scipy.sparse.issparse(equation.M):
+        return _solve_sparse(equation.M, force, "M"), λ
+    return np.linalg.solve(equation.M, force), λ
+
+
+def solve_kkt(equation):
+    """x and λ at once, from the system that A is the Schur complement of: [[M, −h Jᵀ], [J, 0]].
+
+    It has N + m unknowns, is not definite, and sparse however many rows a body has. Raises ValueError where it
+    is singular, which redundant joints make it.
+    """
+    M, J, m = scipy.sparse.csr_array(equation.M), scipy.sparse.csr_array(equation.J), len(equation.b)
+    system = scipy.sparse.block_array([[M, -equation.h * J.T], [J, scipy.sparse.csr_array((m, m))]])
+    both = _solve_sparse(system, np.concatenate([equation.right, equation.wanted]), "the whole system")
+    return np.split(both, [len(equation.right)])
+
+
+def _solve_sparse(matrix, right, name):
+    try:
+        factor = scipy.sparse.linalg.splu(scipy.sparse.csc_array(matrix))
+    except RuntimeError:
+        factor = None
+    pivots = np.abs(factor.U.diagonal()) if factor else np.zeros(1)
+    if pivots.size and pivots.min() <= 1e-13 * pivots.max():
+        raise ValueError(
+            f"{name} is singular: joints are redundant, so that λ is not unique; try form='dense'"
+        )
+    return factor.solve(right)
+
+
+def _laid_out(bodies, state):
+    return bodies.state(state.position, state.orientation, state.velocity, state.angular_velocity)
+
+
+def _jacobian(bodies, rows, state):
+    jacobian = make_jacobian(len(rows.kind), len(bodies.rotating), bodies.dimension)
     fill_rows(rows, state, jacobian)
-    fill_mass_rows(system, rows, jacobian, mechanism.B)
-    for k in range(len(mechanism.λ)):
-        b = row_times(jacobian.J, rows.bodies, k, mechanism.v, mechanism.ω) + jacobian.rate[k]
-        mechanism.right[k] = -b
-    factorise(system, mechanism)
-    substitute(mechanism, mechanism.right, mechanism.λ)
-    add_rows(jacobian.J, rows.bodies, mechanism.λ, f, τ)
+    return jacobian
 
 
-@compiled
-def add_joint_springs(mechanism, state, f, τ):
-    """Add Jᵀ λ of the soft rows, whose λ = −stiffness φ − damping w is known."""
-    rows, out = mechanism.soft, mechanism.soft_jacobian
-    if len(rows.kind) == 0:
-        return
-    fill_rows(rows, state, out)
-    for k in range(len(rows.kind)):
-        w = row_times(out.J, rows.bodies, k, state.v, state.ω)
-        add_row(out.J, rows.bodies, k, -rows.stiffness[k] * out.φ[k] - rows.damping[k] * w, f, τ)
+def _external(scene, bodies, state, time):
+    """f_e (N,): external forces, springs of joints and the gyroscopic torque."""
+    position, orientation, velocity, spin = (part[0] for part in bodies.unpack(state.y[None]))
+    seen = SimpleNamespace(
+        position=position, orientation=orientation, velocity=velocity, angular_velocity=spin, time=time
+    )
+    force = external_force
+    if scene.user_forces:
+        force = with_user_forces(bodies, scene.user_forces, lambda t, state: seen)
+    f, τ = np.zeros_like(state.v), np.zeros_like(state.ω)
+    force(bodies.system, time, state, f, τ)
+    soft = soft_rows(bodies)
+    made = _jacobian(bodies, soft, state)
+    add_joint_springs(soft.stiffness, soft.damping, made.φ, made.J, soft.bodies, 0, state, f, τ)
+    add_gyroscopic_torque(bodies.system, state, τ)
+    return np.concatenate([f.ravel(), τ.ravel()])
 
 
-@compiled
-def fill_mass_rows(system, rows, jacobian, B):
-    """B = J M⁻¹, row by row."""
-    d = 2 if B.shape[2] == 3 else 3
-    for k in range(len(B)):
-        for side in range(2):
-            i = rows.bodies[k, side]
-            if i < 0:
-                continue
-            for c in range(d):
-                B[k, side, c] = jacobian.J[k, side, c] / system.mass[i]
-            if i >= len(system.inertia):
-                continue
-            if d == 2:
-                B[k, side, 2] = jacobian.J[k, side, 2] / system.inertia[i, 0]
-            else:
-                divide_by_inertia(system.inertia, jacobian.frame, i, jacobian.J, B, k, side)
+def _mass_matrix(bodies, frame):
+    """M (N, N), sparse: the masses, then R I Rᵀ of each body."""
+    masses = np.repeat(bodies.system.mass, bodies.dimension)
+    if bodies.dimension == 2:
+        return scipy.sparse.csr_array(
+            scipy.sparse.diags_array(np.concatenate([masses, bodies.moments.ravel()]))
+        )
+    R = frame.reshape(-1, 3, 3)
+    inertias = [r * moments @ r.T for r, moments in zip(R, bodies.moments, strict=True)]
+    return scipy.sparse.csr_array(scipy.sparse.block_diag([scipy.sparse.diags_array(masses), *inertias]))
 
 
-@compiled
-def divide_by_inertia(inertia, frame, i, J, B, k, side):
-    """The turning part of B's row: R I⁻¹ Rᵀ times that of J, with R the frame of body i."""
-    n = J[k, side, 3], J[k, side, 4], J[k, side, 5]
-    R0 = frame[i, 0], frame[i, 3], frame[i, 6]  # the principal axes in the world
-    R1 = frame[i, 1], frame[i, 4], frame[i, 7]
-    R2 = frame[i, 2], frame[i, 5], frame[i, 8]
-    s0, s1, s2 = dot(R0, n) / inertia[i, 0], dot(R1, n) / inertia[i, 1], dot(R2, n) / inertia[i, 2]
-    for c in range(3):
-        B[k, side, 3 + c] = frame[i, 3 * c] * s0 + frame[i, 3 * c + 1] * s1 + frame[i, 3 * c + 2] * s2
+def _inverse(bodies, M):
+    """M⁻¹, block by block."""
+    linear = bodies.system.mass.size * bodies.dimension
+    size = 3 if bodies.dimension == 3 else 1
+    blocks = [np.linalg.inv(M[k : k + size, k : k + size].toarray()) for k in range(linear, M.shape[0], size)]
+    first = scipy.sparse.diags_array(1 / M.diagonal()[:linear])
+    return scipy.sparse.csr_array(scipy.sparse.block_diag([first, *blocks]))

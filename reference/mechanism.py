@@ -12,51 +12,63 @@ from typing import NamedTuple
 import numpy as np
 
 from .compiled import compiled
-from .joints import TURN
+from .joints import DISTANCE, LINEAR, TURN
+from .multipliers import Factor
 from .rows import Jacobian, Rows, fill_rows, make_jacobian
 
 
 class Mechanism(NamedTuple):
-    """The joints of a scene, and room to compute in. M moving bodies, m rigid rows, s soft ones.
+    """The joints of a scene, and room to compute in. M moving bodies; m rigid rows come first, then soft ones.
 
-    B (m, 2, k): the rows of J M⁻¹. right (m,), λ (m,): right-hand side and solution of A λ = right. v (M, d),
-    ω (r, 3) or (r, 1): velocities or their rates. factor: the solver's own arrays.
+    B (m, 2, k): the rows of J M⁻¹. right (m,): right-hand side of A λ = right; λ (m,): its solution for
+    the constraint forces; change (m,): for what is put back after a step. v (M, d),
+    ω (r, 3) or (r, 1): velocities or their rates. solver, factor: see ``multipliers``. watch (4,): the smallest
+    pivot, relative to what it was before the elimination; the smallest and the largest rank seen so far; a gap
+    that could not be closed, relative to the scale.
     """
 
-    rigid: Rows
-    soft: Rows
+    rows: Rows
     jacobian: Jacobian
-    soft_jacobian: Jacobian
     B: np.ndarray
     right: np.ndarray
     λ: np.ndarray
+    change: np.ndarray
     v: np.ndarray
     ω: np.ndarray
-    factor: tuple
+    solver: int
+    factor: Factor
+    watch: np.ndarray
     scale: float  # m: the size of the mechanism, for tolerances
     tolerance: float  # of φ, relative to the scale
 
 
-def make_mechanism(bodies, rigid, soft, factor=(), tolerance=1e-12):
+def make_mechanism(bodies, rigid, soft, solver, factor, tolerance=1e-12):
     """Room for the rows of these bodies (``layout.Bodies``)."""
-    d, r = bodies.dimension, len(bodies.rotating)
-    jacobian, soft_jacobian = (make_jacobian(len(rows.kind), r, d) for rows in (rigid, soft))
-    m = len(rigid.kind)
-    sizes = np.concatenate([np.abs(rigid.p).ravel(), np.abs(rigid.target), [np.finfo(float).tiny]])
+    d, r, m = bodies.dimension, len(bodies.rotating), len(rigid.kind)
+    rows = Rows(*(np.concatenate(pair) for pair in zip(rigid, soft, strict=True)))
+    jacobian = make_jacobian(len(rows.kind), r, d)
     return Mechanism(
-        rigid,
-        soft,
+        rows,
         jacobian,
-        soft_jacobian,
-        B=np.zeros_like(jacobian.J),
+        B=np.zeros((m, *jacobian.J.shape[1:])),
         right=np.zeros(m),
         λ=np.zeros(m),
+        change=np.zeros(m),
         v=np.zeros((len(bodies.moving), d)),
         ω=np.zeros((r, 3 if d == 3 else 1)),
+        solver=solver,
         factor=factor,
-        scale=float(sizes.max()),
+        watch=np.array([1.0, m, 0, 0]),
+        scale=mechanism_size(rigid),
         tolerance=tolerance,
     )
+
+
+def mechanism_size(rows):
+    """The longest arm from a centre of mass to a joint, or the longest rod, m; 1 where there is none."""
+    arms = np.linalg.norm(rows.p, axis=2)[rows.bodies >= 0]
+    size = max(arms.max(initial=0), rows.target[rows.kind == DISTANCE].max(initial=0))
+    return float(size) or 1.0
 
 
 def rigid_rows(bodies):
@@ -160,12 +172,34 @@ def fill_positions(rows, states, state, out, φ):
         for k in range(len(state.y)):
             state.y[k] = states[t, k]
         fill_rows(rows, state, out)
-        φ[t] = out.φ
+        for k in range(len(out.φ)):
+            φ[t, k] = out.φ[k]
 
 
-def positions_of_rows(bodies, rows, y):
-    """φ (T, m) of the rows for the records y (T, size of ``State.y``)."""
-    φ = np.zeros((len(y), len(rows.kind)))
+def positions_of_rows(bodies, rows, position, orientation):
+    """φ (T, m) of the rows, m or rad, for position (T, n, d) and orientation (T, n, 4) or (T, n)."""
+    φ = np.zeros((len(position), len(rows.kind)))
     out = make_jacobian(len(rows.kind), len(bodies.rotating), bodies.dimension)
-    fill_positions(rows, y, bodies.state(), out, φ)
+    fill_positions(rows, bodies.pack(position, orientation), bodies.state(), out, φ)
     return φ
+
+
+def worst_gap(bodies, position, orientation):
+    """The worst gap in any joint, m: (T,); angles count as what they open at ``mechanism_size``.
+
+    A joint's rows in m make one distance. Motors have none.
+    """
+    rows = rigid_rows(bodies)
+    φ = positions_of_rows(bodies, rows, position, orientation) * (rows.speed == 0)
+    long = (rows.kind == LINEAR) | (rows.kind == DISTANCE)
+    gaps = np.zeros((len(bodies.joints) + 1, len(position)))  # one for where there is no joint
+    np.add.at(gaps, rows.joint[long], np.square(φ[:, long]).T)
+    turned = np.abs(φ[:, ~long]).max(axis=1, initial=0) * mechanism_size(rows)
+    return np.maximum(np.sqrt(gaps.max(axis=0)), turned)
+
+
+def spring_energy(bodies, position, orientation):
+    """Energy of the springs along the joints' coordinates, J: (T,)."""
+    rows = soft_rows(bodies)
+    φ = positions_of_rows(bodies, rows, position, orientation)
+    return 0.5 * np.square(φ) @ rows.stiffness

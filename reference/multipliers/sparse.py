@@ -1,66 +1,53 @@
 """Sparse L D Lᵀ: for many joints, of which each meets few others. A chain of n links costs n, not n³.
 
-Which entries of L can be non-zero depends on who is joined to whom only, so it is found once, together with
-an order of the rows in which few are. Row by row, L's entries are then computed from those of A.
+Which entries of L can be non-zero depends only on who is joined to whom. So it is found once, in an order of
+the rows that makes them few, and with it a list of all products to be subtracted: the loops that then run in
+each stage read that list and decide nothing.
 
 Slides S8, S9; lectures/04_embedding.md. Source: Davis, Direct Methods for Sparse Linear Systems (2006),
 chapter 4; the order: minimum degree, section 7.1.
 """
 
 import heapq
-from typing import NamedTuple
 
 import numpy as np
 
 from ..compiled import compiled
-from .pattern import Pairs, assemble, make_pairs, meeting_rows
-
-
-class SparseFactor(NamedTuple):
-    """L row by row, below its diagonal: row p has the entries from first[p] to first[p + 1]."""
-
-    pairs: Pairs
-    order: np.ndarray  # (m,): order[p] is the row of A that comes as p-th
-    first: np.ndarray  # (m + 1,)
-    column: np.ndarray  # (e,)
-    values: np.ndarray  # (e + m,): entries of A, then those of L; the last m are the diagonal D
-    by_column: np.ndarray  # (e,): L's entries again, column by column, as filled so far
-    row_of: np.ndarray  # (e,): the rows of those
-    start: np.ndarray  # (m,): where each column starts
-    filled: np.ndarray  # (m,): how many of its entries are there
-    work: np.ndarray  # (m,)
+from .factor import SINGULAR, assemble, make_factor, meeting_rows
 
 
 def prepare(rows, system):
-    """The order of the rows and the pattern of L, with room for its entries."""
-    meeting = meeting_rows(rows)
+    """A ``Factor`` for these rows, of which L has e entries below its diagonal, column by column.
+
+    values (m + e + m,): D; L's entries; a vector to work in. pattern (m + 1, 3): for each column the row of A
+    that it stands for, where its entries start, and where its products do. links (…, 2): first the row of
+    each entry; then each product, (place to subtract from, place of the first factor, of the second).
+    """
     m = len(rows.kind)
+    meeting = meeting_rows(rows, lambda p, q: 0)
     order, below = minimum_degree(m, meeting)
     place = np.empty(m, dtype=int)
     place[order] = np.arange(m)
-    of_row = [[] for _ in range(m)]  # columns of L in each row
-    for q, deeper in enumerate(below):
-        for p in deeper:
-            of_row[place[p]].append(q)
-    first = np.concatenate([[0], np.cumsum([len(columns) for columns in of_row])]).astype(int)
-    column = np.array([q for columns in of_row for q in columns], dtype=int)
-    where = {(p, q): first[p] + k for p, columns in enumerate(of_row) for k, q in enumerate(columns)}
-    e = len(column)
-    where.update({(p, p): e + p for p in range(m)})
-    pairs = make_pairs(meeting, lambda p, q: where[max(place[p], place[q]), min(place[p], place[q])])
-    counts = np.bincount(column, minlength=m)
-    return SparseFactor(
-        pairs,
-        np.array(order, dtype=int),
-        first,
-        column,
-        values=np.zeros(e + m),
-        by_column=np.zeros(e),
-        row_of=np.zeros(e, dtype=int),
-        start=np.concatenate([[0], np.cumsum(counts)[:-1]]).astype(int) if m else np.zeros(0, dtype=int),
-        filled=np.zeros(m, dtype=int),
-        work=np.zeros(m),
-    )
+    columns = [sorted(place[p] for p in rows_below) for rows_below in below]
+    starts = m + np.concatenate([[0], np.cumsum([len(column) for column in columns])]).astype(int)
+    where = {(q, q): q for q in range(m)}
+    for q, column in enumerate(columns):
+        where.update({(p, q): starts[q] + s for s, p in enumerate(column)})
+    products, firsts = [], []
+    for q, column in enumerate(columns):
+        firsts.append(len(products))
+        products += [
+            (where[p, o], where[p, q], where[o, q]) for a, p in enumerate(column) for o in column[: a + 1]
+        ]
+    firsts.append(len(products))
+    entry = [
+        (*pair[:4], where[max(place[pair[0]], place[pair[1]]), min(place[pair[0]], place[pair[1]])])
+        for pair in meeting
+    ]
+    e = starts[-1] - m
+    table = [(p, 0, 0) for column in columns for p in column] + products
+    pattern = np.column_stack([[*order, 0], starts, e + np.array(firsts)])
+    return make_factor(entry, pattern, np.array(table, dtype=int).reshape(-1, 3), values=2 * m + e)
 
 
 def minimum_degree(m, meeting):
@@ -69,7 +56,7 @@ def minimum_degree(m, meeting):
     Eliminating a row joins all that it meets; next comes one that meets fewest, ties by number.
     """
     meets = [set() for _ in range(m)]
-    for p, q, _, _ in meeting:
+    for p, q, *_ in meeting:
         if p != q:
             meets[p].add(q)
             meets[q].add(p)
@@ -82,7 +69,7 @@ def minimum_degree(m, meeting):
             continue  # out of date: it was pushed again
         done[k] = True
         order.append(k)
-        below.append(sorted(meets[k]))
+        below.append(meets[k])
         for p in meets[k]:
             meets[p] |= meets[k]
             meets[p] -= {p, k}
@@ -91,45 +78,40 @@ def minimum_degree(m, meeting):
 
 
 @compiled
-def factorise(system, mechanism):
-    """A = L D Lᵀ; D is nan where A is singular, to rounding."""
-    factor = mechanism.factor
-    assemble(factor.pairs, mechanism.jacobian.J, mechanism.B, factor.values)
-    factor.filled[:] = 0
-    y, e = factor.work, len(factor.column)
-    for p in range(len(factor.order)):
-        for s in range(factor.first[p], factor.first[p + 1]):
-            y[factor.column[s]] = factor.values[s]
-        pivot = factor.values[e + p]
-        smallest = 1e-14 * pivot
-        for s in range(factor.first[p], factor.first[p + 1]):  # solve for row p of L, column by column
-            q = factor.column[s]
-            l = y[q]
-            for c in range(factor.start[q], factor.start[q] + factor.filled[q]):
-                y[factor.row_of[c]] -= factor.by_column[c] * l
-            scaled = l / factor.values[e + q]
-            pivot -= scaled * l
-            factor.values[s] = scaled
-            end = factor.start[q] + factor.filled[q]
-            factor.by_column[end] = scaled
-            factor.row_of[end] = p
-            factor.filled[q] += 1
-        factor.values[e + p] = pivot if pivot > smallest else np.nan
+def factorise(m, factor, J, B):
+    """A = L D Lᵀ. Returns the smallest pivot relative to A's diagonal."""
+    values, pattern, links = factor.values, factor.pattern, factor.links
+    assemble(factor.meeting, J, B, values)
+    work = len(values) - m
+    for q in range(m):
+        values[work + q] = values[q]
+    smallest = 1.0
+    for q in range(m):
+        ratio = values[q] / values[work + q]
+        smallest = ratio if not ratio >= smallest else smallest
+        inverse = 1 / values[q] if ratio > SINGULAR else np.nan
+        for s in range(pattern[q, 2], pattern[q + 1, 2]):
+            values[links[s, 0]] -= values[links[s, 1]] * values[links[s, 2]] * inverse
+        for s in range(pattern[q, 1], pattern[q + 1, 1]):
+            values[s] *= inverse
+        values[q] = inverse
+    return smallest
 
 
 @compiled
-def substitute(mechanism, right, λ):
-    """λ of A λ = right, after ``factorise``: down with L, divided by D, up with Lᵀ."""
-    factor = mechanism.factor
-    y, e, m = factor.work, len(factor.column), len(factor.order)
-    for p in range(m):
-        total = right[factor.order[p]]
-        for s in range(factor.first[p], factor.first[p + 1]):
-            total -= factor.values[s] * y[factor.column[s]]
-        y[p] = total
-    for p in range(m):
-        y[p] /= factor.values[e + p]
-    for p in range(m - 1, -1, -1):
-        for s in range(factor.first[p], factor.first[p + 1]):
-            y[factor.column[s]] -= factor.values[s] * y[p]
-        λ[factor.order[p]] = y[p]
+def substitute(m, factor, right, λ):
+    """λ of A λ = right, after ``factorise``: down with L, times D⁻¹, up with Lᵀ."""
+    values, pattern, links = factor.values, factor.pattern, factor.links
+    work = len(values) - m
+    for q in range(m):
+        values[work + q] = right[pattern[q, 0]]
+    for q in range(m):
+        y = values[work + q]
+        for s in range(pattern[q, 1], pattern[q + 1, 1]):
+            values[work + links[s - m, 0]] -= values[s] * y
+    for q in range(m - 1, -1, -1):
+        y = values[work + q] * values[q]
+        for s in range(pattern[q, 1], pattern[q + 1, 1]):
+            y -= values[s] * values[work + links[s - m, 0]]
+        values[work + q] = y
+        λ[pattern[q, 0]] = y

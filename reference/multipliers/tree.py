@@ -13,51 +13,27 @@ Slides S8, S9; lectures/04_embedding.md. Source: Baraff, Linear-time dynamics us
 SIGGRAPH 1996; Featherstone, Rigid Body Dynamics Algorithms (2008), chapter 7 (the articulated inertia).
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ..compiled import compiled
 from .cholesky import cholesky, solve_cholesky
-
-
-class TreeFactor(NamedTuple):
-    """n links, from the leaves to the roots. A link is a body and the joint to its parent, or none.
-
-    k = 6 velocities a body in space, 3 in the plane.
-    """
-
-    body: np.ndarray  # (n,)
-    parent: np.ndarray  # (n,): −1: none that moves
-    side: np.ndarray  # (n,): at which side of its joint's rows the body is
-    first: np.ndarray  # (n,): its joint's first row
-    count: np.ndarray  # (n,): and how many: 0 for a free root
-    H: np.ndarray  # (M, k, k): articulated inertia of each body, then its L
-    G: np.ndarray  # (n, k, k): H_c⁻¹ J_cᵀ, column by column: row a belongs to the joint's row a
-    S: np.ndarray  # (n, k, k), then its L
-    P: np.ndarray  # (n, k, k): S⁻¹ J_p, row a for the joint's row a
-    g: np.ndarray  # (M, k)
-    δu: np.ndarray  # (M, k)
-    s: np.ndarray  # (n, k)
-    work: np.ndarray  # (k,)
+from .factor import make_factor
 
 
 def prepare(rows, system):
-    """The links, from the leaves to the roots. Raises ValueError where the joints close a loop."""
+    """A ``Factor``: links (n, 5), from the leaves to the roots: a body, its parent (−1: none that moves), at
+    which side of their joint's rows the body is, the joint's first row, and how many it has.
+
+    values: H of each of the M bodies; G = J_c H_c⁻¹, S and P = S⁻¹ J_p of each link, k² each, k = 6 velocities
+    a body in space, 3 in the plane; then g and δu of each body, s of each link, and room for a vector, k each.
+    Raises ValueError where the joints close a loop.
+    """
     M, k = len(system.mass), 6 if len(system.gravity) == 3 else 3
     links = links_of_tree(rows, M)
     if links is None:
         raise ValueError("solver must be another one than 'tree' here: the joints close a loop")
     n = len(links)
-    arrays = (
-        (np.array(column, dtype=int) for column in zip(*links, strict=True)) if n else [np.zeros(0, int)] * 5
-    )
-    return TreeFactor(
-        *arrays,
-        *(np.zeros((size, k, k)) for size in (M, n, n, n)),
-        *(np.zeros((size, k)) for size in (M, M, n)),
-        work=np.zeros(k),
-    )
+    return make_factor(links=links, values=(M + 3 * n) * k * k + (2 * M + n + 1) * k)
 
 
 def links_of_tree(rows, M):
@@ -91,88 +67,112 @@ def links_of_tree(rows, M):
 
 
 @compiled
-def factorise(system, mechanism):
-    """Articulated inertias, from the leaves to the roots."""
-    factor, J = mechanism.factor, mechanism.jacobian.J
-    fill_inertias(system, mechanism.jacobian.frame, factor.H)
-    for link in range(len(factor.body)):
-        c, p, n = factor.body[link], factor.parent[link], factor.count[link]
-        side, first = factor.side[link], factor.first[link]
-        cholesky(factor.H[c])
-        S, P = factor.S[link, :n, :n], factor.P[link]
-        for a in range(n):
-            solve_cholesky(factor.H[c], J[first + a, side], factor.G[link, a])
-        for a in range(n):
-            for b in range(a + 1):
-                S[a, b] = inner(J[first + a, side], factor.G[link, b])
-        cholesky(S)
-        if p < 0:
-            continue
-        for column in range(P.shape[1]):
-            for a in range(n):
-                factor.work[a] = J[first + a, 1 - side, column]
-            solve_cholesky(S, factor.work[:n], factor.work[:n])
-            for a in range(n):
-                P[a, column] = factor.work[a]
-        for row in range(P.shape[1]):
-            for column in range(row + 1):
-                for a in range(n):
-                    factor.H[p, row, column] += J[first + a, 1 - side, row] * P[a, column]
+def places(factor, M, k):
+    """Where in values G, S, P, g, δu, s and the vector start."""
+    n = len(factor.links)
+    G = M * k * k
+    S, P, g = G + n * k * k, G + 2 * n * k * k, G + 3 * n * k * k
+    δu, s = g + M * k, g + 2 * M * k
+    return G, S, P, g, δu, s, s + n * k
 
 
 @compiled
-def fill_inertias(system, frame, H):
+def factorise(factor, J, mass, inertia, frame):
+    """Articulated inertias, from the leaves to the roots. Returns the smallest pivot, as ``cholesky`` does."""
+    values, links = factor.values, factor.links
+    M, k = len(mass), J.shape[2]
+    G0, S0, P0, _, _, _, column = places(factor, M, k)
+    fill_inertias(mass, inertia, frame, values, k)
+    smallest = 1.0
+    for link in range(len(links)):
+        c, p, side, first, n = links[link, 0], links[link, 1], links[link, 2], links[link, 3], links[link, 4]
+        H, G, S, P = c * k * k, G0 + link * k * k, S0 + link * k * k, P0 + link * k * k
+        cholesky(values, H, k)
+        for a in range(n):
+            for x in range(k):
+                values[G + a * k + x] = J[first + a, side, x]
+            solve_cholesky(values, H, k, values, G + a * k)
+        for a in range(n):
+            for b in range(a + 1):
+                values[S + a * n + b] = inner(J, first + a, side, values, G + b * k)
+        ratio = cholesky(values, S, n)
+        smallest = ratio if not ratio >= smallest else smallest
+        if p < 0:
+            continue
+        for x in range(k):
+            for a in range(n):
+                values[column + a] = J[first + a, 1 - side, x]
+            solve_cholesky(values, S, n, values, column)
+            for a in range(n):
+                values[P + a * k + x] = values[column + a]
+        for x in range(k):
+            for y in range(x + 1):
+                for a in range(n):
+                    values[(p * k + x) * k + y] += J[first + a, 1 - side, x] * values[P + a * k + y]
+    return smallest
+
+
+@compiled
+def fill_inertias(mass, inertia, frame, H, k):
     """H = M of each body: mass, and R I Rᵀ; 1 for the turning of points, which have none."""
-    H[:] = 0
-    d = len(system.gravity)
-    for i in range(len(H)):
-        for c in range(H.shape[1]):
-            H[i, c, c] = system.mass[i] if c < d else 1.0
-        if i >= len(frame):
+    d = 2 if k == 3 else 3
+    for i in range(len(mass)):
+        at = i * k * k
+        for x in range(k * k):
+            H[at + x] = 0.0
+        for x in range(k):
+            H[at + x * k + x] = mass[i] if x < d else 1.0
+        if i >= len(inertia):
             continue
         if d == 2:
-            H[i, 2, 2] = system.inertia[i, 0]
+            H[at + 8] = inertia[i, 0]
             continue
         for a in range(3):
             for b in range(a + 1):
                 total = 0.0
                 for c in range(3):
-                    total += frame[i, 3 * a + c] * system.inertia[i, c] * frame[i, 3 * b + c]
-                H[i, 3 + a, 3 + b] = total
+                    total += frame[i, 3 * a + c] * inertia[i, c] * frame[i, 3 * b + c]
+                H[at + (3 + a) * 6 + 3 + b] = total
 
 
 @compiled
-def substitute(mechanism, right, λ):
+def substitute(M, factor, J, right, λ):
     """λ of A λ = right, after ``factorise``: forces up to the roots, motion down to the leaves."""
-    factor, J = mechanism.factor, mechanism.jacobian.J
-    factor.g[:] = 0
-    for link in range(len(factor.body)):
-        c, p, n = factor.body[link], factor.parent[link], factor.count[link]
-        side, first, s = factor.side[link], factor.first[link], factor.s[link]
+    values, links = factor.values, factor.links
+    k = J.shape[2]
+    G0, S0, P0, g0, δu0, s0, _ = places(factor, M, k)
+    for x in range(M * k):
+        values[g0 + x] = 0.0
+    for link in range(len(links)):
+        c, p, first, n = links[link, 0], links[link, 1], links[link, 3], links[link, 4]
+        G, P, g, s = G0 + link * k * k, P0 + link * k * k, g0 + p * k, s0 + link * k
         for a in range(n):
-            s[a] = right[first + a] - inner(factor.G[link, a], factor.g[c])
-        if p >= 0:
-            for a in range(n):
-                for column in range(len(factor.work)):
-                    factor.g[p, column] += factor.P[link, a, column] * s[a]
-    for link in range(len(factor.body) - 1, -1, -1):
-        c, p, n = factor.body[link], factor.parent[link], factor.count[link]
-        side, first, s = factor.side[link], factor.first[link], factor.s[link]
-        if p >= 0:
-            for a in range(n):
-                s[a] -= inner(J[first + a, 1 - side], factor.δu[p])
-        solve_cholesky(factor.S[link, :n, :n], s[:n], s[:n])
-        solve_cholesky(factor.H[c], factor.g[c], factor.δu[c])
+            total = right[first + a]
+            for x in range(k):
+                total -= values[G + a * k + x] * values[g0 + c * k + x]
+            values[s + a] = total
+        for a in range(n if p >= 0 else 0):
+            for x in range(k):
+                values[g + x] += values[P + a * k + x] * values[s + a]
+    for link in range(len(links) - 1, -1, -1):
+        c, p, side, first, n = links[link, 0], links[link, 1], links[link, 2], links[link, 3], links[link, 4]
+        G, s, δu = G0 + link * k * k, s0 + link * k, δu0 + c * k
+        for a in range(n if p >= 0 else 0):
+            values[s + a] -= inner(J, first + a, 1 - side, values, δu0 + p * k)
+        solve_cholesky(values, S0 + link * k * k, n, values, s)
+        for x in range(k):
+            values[δu + x] = values[g0 + c * k + x]
+        solve_cholesky(values, c * k * k, k, values, δu)
         for a in range(n):
-            λ[first + a] = s[a]
-            for column in range(len(factor.work)):
-                factor.δu[c, column] += factor.G[link, a, column] * s[a]
+            λ[first + a] = values[s + a]
+            for x in range(k):
+                values[δu + x] += values[G + a * k + x] * values[s + a]
 
 
 @compiled
-def inner(a, b):
-    """Σ a_k b_k."""
+def inner(J, row, side, values, at):
+    """Row of J, its part for one body, times the numbers from ``at`` on."""
     total = 0.0
-    for k in range(len(b)):
-        total += a[k] * b[k]
+    for x in range(J.shape[2]):
+        total += J[row, side, x] * values[at + x]
     return total

@@ -13,12 +13,11 @@ import numpy as np
 
 from ..compiled import bind, compiled
 from ..correction import project
-from ..equation import constrained_force
+from ..embedding import constrained_force
 from ..forces import external_force, with_user_forces
 from ..integrators import INTEGRATORS, copy, make_work
-from ..mechanism import make_mechanism, rigid_rows, soft_rows
-from ..multipliers import MULTIPLIERS
-from ..trajectory import BodyState
+from ..trajectory import BodyState, JointForces
+from .jointed import Joints
 
 TORN = 1e-6  # of the mechanism's size: a joint error that no projection could mend; the run stops
 
@@ -59,21 +58,18 @@ def all_finite(y):
 
 
 @compiled
-def jointed_step(step, factorise, substitute, system, t, h, state, work):
-    """A step of S9 with joints: constraint forces and velocities and positions; then what drifted is put back."""
+def jointed_step(step, system, t, h, state, work):
+    """A step of S9 with joints: constraint forces, velocities and positions; then what drifted is put back.
+
+    A gap that stays is one that no step may be built on: the state becomes nan, which ends the run.
+    """
     step(system, t, h, state, work)
-    iterations, rest = project(factorise, substitute, system, state)
+    iterations, gap = project(system, state)
     work.solve[0] = max(work.solve[0], iterations)
-    work.solve[1] = max(work.solve[1], rest)
-    if rest > TORN:
+    work.solve[1] = max(work.solve[1], gap)
+    if gap > TORN:
+        system.mechanism.watch[3] = gap
         state.y[:] = np.nan
-
-
-def with_joints(bodies, solver):
-    """The System with its Mechanism, ready for this solver (an entry of ``MULTIPLIERS``)."""
-    rows, soft = rigid_rows(bodies), soft_rows(bodies)
-    factor = solver.prepare(rows, bodies.system)
-    return bodies.system._replace(mechanism=make_mechanism(bodies, rows, soft, factor))
 
 
 class Smooth:
@@ -83,19 +79,17 @@ class Smooth:
         self.bodies, self.state = bodies, bodies.state()
         self.limits = settings.iterations, settings.tolerance
         self.nothing = np.empty((0, self.state.y.size)), np.empty((0, 2))
-        method = INTEGRATORS[settings.integrator]
+        method, self.system, self.joints = INTEGRATORS[settings.integrator], bodies.system, None
         force = external_force
         if user_forces:
             force = with_user_forces(bodies, tuple(user_forces), self.public_state)
-        if not bodies.joints:
-            self.system, step = bodies.system, method.bind(force)
+        if bodies.joints:
+            self.joints = Joints(bodies, settings.solver)
+            self.system = self.joints.system
+            self.run = bind(run, bind(jointed_step, method.bind(bind(constrained_force, force))))
+            self.begin()
         else:
-            solver = MULTIPLIERS[settings.solver]
-            functions = solver.factorise, solver.substitute
-            self.system = with_joints(bodies, solver)
-            step = bind(jointed_step, method.bind(bind(constrained_force, force, *functions)), *functions)
-            self.project = bind(project, *functions)
-        self.run = bind(run, step)
+            self.run = bind(run, method.bind(force))
 
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
         """So many steps of h; see ``run``."""
@@ -112,3 +106,30 @@ class Smooth:
         self.state = self.bodies.state(
             start.position, start.orientation, start.velocity, start.angular_velocity
         )
+        if self.joints:
+            self.begin()
+
+    def begin(self):
+        """Close the joints and take out velocities that they don't allow: a step that takes no time."""
+        before = self.state.y.copy()
+        if self.advance(0.0, 0, 0.0, 1) < 1:
+            self.joints.refuse_start()
+        self.joints.compare_start(before, self.state)
+
+    def joint_forces(self, times, records):
+        """``JointForces`` at these times, from the records y (T, size): found anew, without moving on."""
+        kept, found = self.state.y.copy(), []
+        for t, y in zip(times, records, strict=True):
+            self.set_state(self.public_state(t, self.state._replace(y=y)))
+            self.advance(t, 0, 0.0, 1)
+            found.append(self.joints.forces(self.state))
+        self.set_state(self.public_state(0.0, self.state._replace(y=kept)))
+        return JointForces(*(np.array(part) for part in zip(*found, strict=True)), self.joints.rows.joint)
+
+    def failure(self):
+        """The status and reason where ``advance`` ended early."""
+        return self.joints.failure() if self.joints else None
+
+    def note(self):
+        """What must be said of the joints, or ""."""
+        return self.joints.note() if self.joints else ""
