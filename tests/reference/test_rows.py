@@ -98,9 +98,7 @@ def test_points_follow_and_carry(d, which):
     bead, body = (1, 0) if name == "Slider" else (0, 1)
     scene = Scene(gravity=np.zeros(d))
     for k in range(2):
-        shape = (
-            Point() if k == bead else Box((0.3, 0.4, 0.5)) if d == 3 else Polygon([(0, 0), (1, 0), (0, 1)])
-        )
+        solid = Box((0.3, 0.4, 0.5)) if d == 3 else Polygon([(0, 0), (1, 0), (0, 1)])
         position = apart.POINT[:d] if k == bead else rng.normal(size=d)
         inertia = None if k == bead else apart.TENSOR if d == 3 else 0.3
         scene.add(Point() if k == bead else solid, mass=1, inertia=inertia, position=position)
