@@ -92,7 +92,7 @@ def test_w_and_its_rate_are_the_derivatives_of_φ(name, d, partners, where):
 
 @every_kind
 def test_the_rate_is_that_of_J_at_constant_u(name, d):
-    """(J(h) u − J(−h) u) / 2h, off the joint; of the coordinate's row, too, whose φ has another second rate."""
+    """(J(h) u − J(−h) u) / 2h, off the joint; for the row of the coordinate as well."""
     rng, h = np.random.default_rng(14), 1e-5
     law = {"stiffness": 1} if kind_of(name, d).driven else {}
     for _ in range(3):
