@@ -1,4 +1,4 @@
-"""What all solvers for λ share: room for their numbers, and A = J M⁻¹ Jᵀ put together from the rows that meet.
+"""What all solvers for λ share: room for numbers, and A = J M⁻¹ Jᵀ put together from rows that meet.
 
 Two rows meet where they share a body that moves; all other entries of A are 0. Who meets whom is found once
 for a scene.
@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ..compiled import compiled
-
 
 SINGULAR = 1e-14  # a pivot, over what was there before the elimination, that is rounding
 
