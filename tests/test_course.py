@@ -470,7 +470,7 @@ def called(course, monkeypatch, *arguments):
 def test_arguments_reach_pytest_and_bench_in_order(course, monkeypatch):
     arguments = ["-m", "slow", "tests/test_a.py", "-k", "not b", "-x"]
     command, changes = called(course, monkeypatch, "test", *arguments)
-    assert command == ["-m", "pytest", *arguments]
+    assert command == ["-m", "pytest", *course.SIDE_BY_SIDE, *arguments]
     assert changes["OPENBLAS_NUM_THREADS"] == "1"
     command, changes = called(course, monkeypatch, "bench", "top", "--out", "here")
     assert command == ["-m", "reference.bench", "top", "--out", "here"]
@@ -490,11 +490,11 @@ def test_lab_serves_work_and_only_our_kernel(course, monkeypatch, user, root):
 
 
 def test_foreign_settings_do_not_reach_children(course, monkeypatch):
-    for name in ("PYTHONPATH", "PYTHONHOME", "JUPYTER_PATH"):
+    for name in ("PYTHONPATH", "PYTHONHOME", "PYTHONDONTWRITEBYTECODE", "JUPYTER_PATH"):
         monkeypatch.setenv(name, "elsewhere")
     child = course.environment(EXTRA="1")
     assert child["PYTHONPATH"] == str(course.ROOT) and child["PYTHONUTF8"] == "1" and child["EXTRA"] == "1"
-    assert "PYTHONHOME" not in child and "JUPYTER_PATH" not in child
+    assert not {"PYTHONHOME", "PYTHONDONTWRITEBYTECODE", "JUPYTER_PATH"} & set(child)
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,9 @@ from exercises.grader.classroom import release
 from exercises.grader.marking import mark
 from exercises.grader.replies import encode
 from exercises.grader.shell import check_cells
-from tests.grading.class_support import UNIT, PlainBox, notebook, plant, solution
+from tests.grading.class_support import UNIT, PlainBox, notebook, solution
+
+pytestmark = pytest.mark.xdist_group("bundle")  # which is made once
 
 
 @pytest.fixture(scope="module")
@@ -163,30 +165,3 @@ def test_the_same_bundle_twice(bundle):
     again = release._zip(dict(release.bundle()))
     assert again == (bundle / "course.zip").read_bytes()
     assert all(name.startswith("course/") for name in zipfile.ZipFile(io.BytesIO(again)).namelist())
-
-
-def test_private_units(tmp_path):
-    """--exercises DIR: other points and other cases, graded with the course's machinery."""
-    import shutil
-
-    private = tmp_path / "private"
-    shutil.copytree(exercises.FOLDER / UNIT.slug, private / UNIT.slug)
-    file = private / UNIT.slug / "checks.py"
-    file.write_text(file.read_text(encoding="utf-8").replace("points=15", "points=16", 1), encoding="utf-8")
-    plant(tmp_path, {"ada": solution(0)})
-    command = [
-        sys.executable,
-        "-m",
-        "exercises.grader.classroom",
-        "grade",
-        str(tmp_path),
-        "--exercises",
-        str(private),
-    ]
-    done = subprocess.run(
-        [*command, "--jobs", "2"], cwd=exercises.FOLDER.parent, capture_output=True, text=True, check=False
-    )
-    assert done.returncode in (0, 2), done.stderr
-    if done.returncode == 2:
-        pytest.skip(f"no sandbox works here: {done.stderr}")
-    assert ",101,0,101,101,ok," in (tmp_path / "scores.csv").read_text()

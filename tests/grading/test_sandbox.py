@@ -32,6 +32,7 @@ from exercises.grader.sandbox.survey import INTERPRETER, ROOT, survey
 from exercises.grader.sandbox.wire import Gone, Wire
 from tests.grading.corpus_support import SOLUTION, UNIT, earned, grade, notebook_of, read_cells
 
+pytestmark = pytest.mark.xdist_group("sandbox")  # in one process, with one parent of each kind
 KINDS = [kind for kind in nursery.KINDS if kind != "none"]
 each_kind = pytest.mark.parametrize("kind", KINDS)
 RIGHT = read_cells(SOLUTION)
