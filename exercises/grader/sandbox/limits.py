@@ -12,8 +12,8 @@ class Limits:
     """Seconds and bytes."""
 
     cell: float = 10.0  # one cell, in the first worker
-    call: float = 10.0  # one call, on average over those of one check
-    question: float = 30.0  # all calls of one check
+    call: float = 10.0  # one call, on average over those of one message
+    question: float = 30.0  # all calls of one message; a check has two, of visible and of hidden cases
     total: float = 300.0  # all of a submission
     memory: int = 1 << 30  # what a worker may take beyond what is loaded already
     scratch: int = 64 << 20  # files that it writes

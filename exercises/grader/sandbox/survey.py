@@ -24,7 +24,7 @@ OURS = (
     *(f"exercises/grader/{name}.py" for name in ("__init__", "absent", "cells", "ipython", "numba_cache")),
     *(
         f"exercises/grader/{name}.py"
-        for name in ("replies", "worker", "classroom/__init__", "classroom/fingerprint")
+        for name in ("replies", "state", "worker", "classroom/__init__", "classroom/fingerprint")
     ),
     *(
         f"exercises/grader/sandbox/{name}.py"
