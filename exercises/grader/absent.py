@@ -32,11 +32,6 @@ INERT = (
 )  # fmt: skip
 
 
-def is_present(name):
-    """May a student's cell import this module?"""
-    return name.split(".")[0] in PRESENT
-
-
 class Absent(ImportError):
     """Something of an absent package was used."""
 

@@ -241,6 +241,21 @@ def test_tags_and_metadata_skip_no_cell():
     assert earned(grade(notebook_of(RIGHT, **tags))[1]) == 100
 
 
+def test_a_notebook_in_another_dress_is_the_same():
+    """As old and foreign programs save it: no metadata, no ids, lines of Windows, a byte order mark, the same
+    key twice, text between the cells that looks like code."""
+    cells = [
+        {"cell_type": "code", "source": cell.replace("\n", "\r\n").splitlines(keepends=True)}
+        for cell in RIGHT
+    ]
+    aside = {"cell_type": "markdown", "source": "def plate(*arguments):\n    return 0"}
+    raw = {"cell_type": "raw", "source": ["1/0"], "metadata": None}
+    book = json.dumps({"nbformat": 4, "nbformat_minor": 0, "cells": [aside, *cells, raw, aside]}, indent=1)
+    twice = '{"cells": [],' + book.removeprefix("{")
+    box, results = grade(b"\xef\xbb\xbf" + twice.replace("\n", "\r\n").encode())
+    assert (box.status, earned(results), box.troubles) == ("ok", 100, [])
+
+
 # --- limits -------------------------------------------------------------------------------------------------
 
 
