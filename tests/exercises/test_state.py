@@ -81,7 +81,8 @@ def test_things_that_mind_and_rings_do_no_harm():
     names = alone(
         "class Odd(dict):\n    def items(self): raise KeyError\n    __iter__ = keys = items\n"
         "    def __setitem__(self, *all): raise KeyError\n"
-        "class Slots:\n    __slots__ = ('a',)\nring = [Odd(a=1), Slots()]\nring.append(ring)"
+        "class Slots:\n    __slots__ = ('a',)\n    __class__ = property(lambda self: 1 / 0)\n"
+        "ring = [Odd(a=1), Slots()]\nring.append(ring)"
     )
     with put_back(names):
         names["ring"].clear()
