@@ -23,6 +23,7 @@ from exercises.grader.sandbox import (
     folder,
     isolation,
     kernel,
+    limits,
     nursery,
     seccomp,
     syscalls,
@@ -259,7 +260,20 @@ def test_a_notebook_in_another_dress_is_the_same():
 # --- limits -------------------------------------------------------------------------------------------------
 
 
-def test_a_submission_ends_in_its_time():
+def test_an_overloaded_machine_gives_more_time(monkeypatch):
+    """And no more than three times as much, however busy a notebook makes it."""
+    processors = len(os.sched_getaffinity(0))
+    for load, times in ((0.0, 1.0), (processors, 1.0), (2 * processors, 2.0), (99 * processors, 3.0)):
+        monkeypatch.setattr(os, "getloadavg", lambda load=load: (load, 0.0, 0.0))
+        assert limits.stretch() == times
+    cells = notebook_of(["import time\ntime.sleep(1.0)"])
+    assert grade(cells, Limits(cell=0.6))[0].troubles == []
+    monkeypatch.setattr(os, "getloadavg", lambda: (0.0, 0.0, 0.0))
+    assert "longer than" in grade(cells, Limits(cell=0.6))[0].troubles[0].text
+
+
+def test_a_submission_ends_in_its_time(monkeypatch):
+    monkeypatch.setattr(os, "getloadavg", lambda: (0.0, 0.0, 0.0))
     endless = ["while True: pass"] * 30
     started = time.monotonic()
     box, results = grade(notebook_of(endless), Limits(cell=0.5, question=1.0, total=4.0))

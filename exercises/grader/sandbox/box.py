@@ -10,7 +10,7 @@ from exercises.grader.replies import BadReply, parse
 from exercises.grader.sandbox import nursery as home
 from exercises.grader.sandbox.files import compiled, contents
 from exercises.grader.sandbox.isolation import choose
-from exercises.grader.sandbox.limits import Limits
+from exercises.grader.sandbox.limits import Limits, stretch
 from exercises.grader.sandbox.wire import Gone
 from exercises.grader.sandbox.words import Trouble, clean
 from exercises.grader.sandbox.workers import Worker
@@ -183,9 +183,11 @@ class Sandbox:
         self.troubles.append(Trouble(number, self.titles[number - 1], clean(text), True))
 
     def _left(self, seconds):
-        left = min(seconds, self.limits.total - self.seconds - (time.monotonic() - self.started))
+        times = stretch()
+        total = times * self.limits.total
+        left = min(times * seconds, total - self.seconds - (time.monotonic() - self.started))
         if left <= 0:
-            raise Gone(f"the submission took longer than {self.limits.total:g} s in all", late=True)
+            raise Gone(f"the submission took longer than {total:.0f} s in all", late=True)
         return left
 
     def _last_words(self):
