@@ -234,17 +234,21 @@ def test_sets_up_offline_recovers_and_is_quick_after(folder, wheels, course):
     )
     assert Path(told.stdout.decode().strip()) == folder / "reference" / "__init__.py"
 
-    seconds = []
+    start = cpu_of_children()
     for _ in range(3):
-        start = time.perf_counter()
         assert ask(folder, "bench", "top", "--quick").stdout == "bench top --quick\n"
-        seconds.append(time.perf_counter() - start)
-    assert min(seconds) < 1
+    assert cpu_of_children() - start < 3  # seconds, for three
 
     course.PINS.write_text("tiny==1.0\n# new pins\n", encoding="utf-8")
     assert not course.is_ready()
 
 
+def cpu_of_children():
+    used = os.times()
+    return used.children_user + used.children_system
+
+
+@pytest.mark.slow
 def test_no_network_is_told_and_the_next_run_recovers(folder, wheels, course):
     nowhere = {
         "PIP_INDEX_URL": "http://127.0.0.1:9/simple",
