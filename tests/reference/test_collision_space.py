@@ -220,21 +220,14 @@ def test_tangents_turn_slowly_and_do_not_depend_on_the_sign_of_n():
     n = directions(np.random.default_rng(4), 60, 3)
     n = np.concatenate([n, np.eye(3), -np.eye(3)])
     for direction in n:
-        frames = [
-            pair_contacts((Sphere(1), -s * direction, UPRIGHT), (Sphere(1), s * direction, UPRIGHT), 1)[
-                "frame"
-            ][0]
-            for s in (1, -1)
-        ]
+        frames = [frame_along(s * direction) for s in (1, -1)]
         np.testing.assert_allclose(frames[0] @ frames[0].T, np.eye(3), atol=1e-12)
         assert np.linalg.det(frames[0]) == pytest.approx(1)
         np.testing.assert_allclose(frames[1], frames[0] * [[-1], [1], [-1]], atol=1e-9)
+        turned_a_little = frame_along(direction + 1e-6 * n[0])
+        assert np.abs(turned_a_little - frames[0]).max() < 1e-4
     for axis, t1 in ((2, 0), (1, 0), (0, 1)):
-        direction = np.eye(3)[axis]
-        frame = pair_contacts((Sphere(1), -direction, UPRIGHT), (Sphere(1), direction, UPRIGHT), 1)["frame"][
-            0
-        ]
-        np.testing.assert_allclose(frame[1], np.eye(3)[t1], atol=1e-15)
+        np.testing.assert_allclose(frame_along(np.eye(3)[axis])[1], np.eye(3)[t1], atol=1e-15)
 
 
 # --- against pybullet ---------------------------------------------------------------------------------------
