@@ -77,3 +77,29 @@ def gap_along(first, second, n):
 def directions(rng, count, d):
     n = rng.normal(size=(count, d))
     return n / np.linalg.norm(n, axis=1, keepdims=True)
+
+
+def shrunk(shape, s):
+    """The shape s times as large."""
+    if isinstance(shape, (Sphere, Disc)):
+        return type(shape)(s * shape.radius)
+    if isinstance(shape, Box):
+        return Box(tuple(s * e for e in shape.half_extents))
+    return Capsule(s * shape.radius, s * shape.half_length)
+
+
+def assert_smallest_gap_is_the_distance(make_pair, scale, count):
+    """For so many separated pairs: the gap is the distance, and the margin decides who is found."""
+    seen = 0
+    while seen < count:
+        pair = make_pair()
+        d = distance(*pair)
+        if not 0.01 * scale < d < scale:
+            continue
+        seen += 1
+        found = pair_contacts(*pair, margin=2 * scale)
+        k = found["gap"].argmin()
+        np.testing.assert_allclose(found["gap"][k], d, rtol=0, atol=2e-6 * scale)
+        np.testing.assert_allclose(gap_along(*pair, found["frame"][k, 0]), d, rtol=0, atol=2e-6 * scale)
+        assert len(pair_contacts(*pair, margin=d * 1.001)["gap"]) >= 1
+        assert len(pair_contacts(*pair, margin=d * 0.999)["gap"]) == 0

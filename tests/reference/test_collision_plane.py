@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 
 from reference import Box, Capsule, Disc, Plane, Polygon, Scene
-from tests.geometry import contacts_of, directions, distance, gap_along, overlap_along, pair_contacts
+from tests.geometry import (
+    assert_smallest_gap_is_the_distance,
+    contacts_of,
+    directions,
+    overlap_along,
+    pair_contacts,
+    shrunk,
+)
 
 SHAPES = {
     "disc": Disc(0.4),
@@ -17,18 +24,10 @@ SHAPES = {
 PAIRS = list(itertools.combinations_with_replacement(SHAPES, 2))
 
 
-def scaled(shape, s):
-    if isinstance(shape, Disc):
-        return Disc(s * shape.radius)
-    if isinstance(shape, Box):
-        return Box(tuple(s * e for e in shape.half_extents))
-    return Capsule(s * shape.radius, s * shape.half_length)
-
-
 def random_pair(rng, names, spread, scale=1.0):
     return [
         (
-            scaled(SHAPES[name], scale),
+            shrunk(SHAPES[name], scale),
             scale * rng.uniform(-spread, spread, size=2),
             rng.uniform(-np.pi, np.pi),
         )
@@ -39,19 +38,8 @@ def random_pair(rng, names, spread, scale=1.0):
 @pytest.mark.parametrize("names", PAIRS, ids=" - ".join)
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
 def test_the_smallest_gap_of_a_separated_pair_is_the_distance(names, scale):
-    rng, seen = np.random.default_rng(1), 0
-    while seen < 15:
-        pair = random_pair(rng, names, 1.5, scale)
-        d = distance(*pair)
-        if not 0.01 * scale < d < scale:
-            continue
-        seen += 1
-        found = pair_contacts(*pair, margin=2 * scale)
-        k = found["gap"].argmin()
-        assert found["gap"][k] == pytest.approx(d, abs=2e-6 * scale)
-        assert gap_along(*pair, found["frame"][k, 0]) == pytest.approx(d, abs=2e-6 * scale)
-        assert len(pair_contacts(*pair, margin=d * 1.001)["gap"]) >= 1
-        assert len(pair_contacts(*pair, margin=d * 0.999)["gap"]) == 0
+    rng = np.random.default_rng(1)
+    assert_smallest_gap_is_the_distance(lambda: random_pair(rng, names, 1.5, scale), scale, 15)
 
 
 @pytest.mark.parametrize("names", PAIRS, ids=" - ".join)

@@ -7,13 +7,13 @@ import pytest
 
 from reference import Box, Capsule, Plane, Scene, Sphere
 from tests.geometry import (
+    assert_smallest_gap_is_the_distance,
     contacts_of,
     directions,
-    distance,
-    gap_along,
     overlap_along,
     pair_contacts,
     random_quaternion,
+    shrunk,
 )
 
 SHAPES = {
@@ -32,37 +32,16 @@ def turned(axis, angle):
 
 def random_pair(rng, names, spread, scale=1.0):
     return [
-        (scaled(SHAPES[name], scale), scale * rng.uniform(-spread, spread, size=3), random_quaternion(rng))
+        (shrunk(SHAPES[name], scale), scale * rng.uniform(-spread, spread, size=3), random_quaternion(rng))
         for name in names
     ]
-
-
-def scaled(shape, s):
-    if isinstance(shape, Sphere):
-        return Sphere(s * shape.radius)
-    if isinstance(shape, Box):
-        return Box(tuple(s * e for e in shape.half_extents))
-    return Capsule(s * shape.radius, s * shape.half_length)
 
 
 @pytest.mark.parametrize("names", PAIRS, ids=" - ".join)
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
 def test_the_smallest_gap_of_a_separated_pair_is_the_distance(names, scale):
-    rng, seen = np.random.default_rng(1), 0
-    while seen < 12:
-        pair = random_pair(rng, names, 1.2, scale)
-        d = distance(*pair)
-        if not 0.01 * scale < d < scale:
-            continue
-        seen += 1
-        found = pair_contacts(*pair, margin=2 * scale)
-        k = found["gap"].argmin()
-        assert found["gap"][k] == pytest.approx(d, abs=2e-6 * scale)
-        assert gap_along(*pair, found["frame"][k, 0]) == pytest.approx(d, abs=2e-6 * scale)
-        assert (
-            len(pair_contacts(*pair, margin=d * 1.001)["gap"]) >= 1
-        )  # whoever is within the margin is found
-        assert len(pair_contacts(*pair, margin=d * 0.999)["gap"]) == 0
+    rng = np.random.default_rng(1)
+    assert_smallest_gap_is_the_distance(lambda: random_pair(rng, names, 1.2, scale), scale, 12)
 
 
 @pytest.mark.parametrize("names", PAIRS, ids=" - ".join)
