@@ -1,10 +1,10 @@
 """Contacts of boxes in space: with planes, balls, capsules, and each other.
 
 Two boxes are apart if one of 15 axes separates them: a normal of either's faces, or a cross product of two
-edges (Gottschalk, Lin & Manocha 1996). The axis on which they are farthest apart, or overlap least, is n, and
-``separation`` is the gap along it. Where n is a face's normal, the other box's face is clipped to that face (``clipping``);
-where it is a cross product, the two edges touch in one point; and where neither face nor edges meet, although
-the boxes are apart, their closest points make the contact.
+edges (Gottschalk, Lin & Manocha 1996). The axis on which they are farthest apart, or overlap least, is n,
+and the separation is the gap along it. Where n is a face's normal, the other box's face is cut to that face
+(``clipping``); where it is a cross product, the two edges touch in one point; and where neither face nor
+edges meet, although the boxes are apart, their closest points make the contact.
 
 Near ties are decided by what changes least: a face rather than edges nearly parallel to it, the first box's
 face rather than the second's.
@@ -14,7 +14,7 @@ Slides S10; lectures/05_contact.md.
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import inner
 from ..rotation import cross, vector
 from .clipping import box_edge, face_contact, facing
 from .closest import (
@@ -34,13 +34,11 @@ from .closest import (
 from .round import plane_point
 
 _PARALLEL = 1e-4  # sine below which two edges are parallel, and their cross product no axis
-_LEANING, _LEAN_TIE = (
-    0.99,
-    1e-4,
-)  # cosine and gain below which a face's normal is preferred to a cross product
+# A cross product whose cosine with the best face's normal exceeds the one must gain the other, relative.
+_LEANING, _LEAN_TIE = 0.99, 1e-4
 
 
-@compiled
+@inner
 def reach(forms, a, n):
     """How far the box a extends from its centre along n."""
     e = forms.size
@@ -51,7 +49,7 @@ def reach(forms, a, n):
     )
 
 
-@compiled
+@inner
 def corner(forms, a, signs):
     """The corner of box a with these signs of its three coordinates, world frame."""
     p = vector(forms.x, a)
@@ -60,7 +58,7 @@ def corner(forms, a, signs):
     return p
 
 
-@compiled
+@inner
 def within(forms, a, p):
     """The point of box a nearest to p, world frame."""
     x = vector(forms.x, a)
@@ -71,7 +69,7 @@ def within(forms, a, p):
     return q
 
 
-@compiled
+@inner
 def middle_of_edge(forms, a, k, edge):
     """The middle of one of the four edges of box a along its axis k; edge: two bits, the sides it is on."""
     k1, k2 = (k + 1) % 3, (k + 2) % 3
@@ -79,7 +77,7 @@ def middle_of_edge(forms, a, k, edge):
     return along(p, (1 if edge & 2 else -1) * forms.size[a, k2], body_axis(forms, a, k2))
 
 
-@compiled
+@inner
 def edge_towards(forms, a, k, n, d):
     """Of the four edges of box a along axis k, the one farthest along n; towards d where n can't tell."""
     edge = 0
@@ -91,7 +89,7 @@ def edge_towards(forms, a, k, n, d):
     return edge
 
 
-@compiled
+@inner
 def plane_box(forms, a, b, limit, raw):
     """The corners of the face that looks most towards the plane, if near: 0 to 4 contacts."""
     n = body_axis(forms, a, 0)
@@ -104,7 +102,7 @@ def plane_box(forms, a, b, limit, raw):
     return m
 
 
-@compiled
+@inner
 def box_ball(forms, a, b, limit, raw):
     """0 or 1 contacts. A centre inside the box is pushed out through the nearest face."""
     c, x, r = vector(forms.x, b), vector(forms.x, a), forms.size[b, 0]
@@ -121,7 +119,7 @@ def box_ball(forms, a, b, limit, raw):
     return 1
 
 
-@compiled
+@inner
 def box_box(forms, a, b, limit, raw):
     """0 to 4 contacts."""
     d = minus(vector(forms.x, b), vector(forms.x, a))
@@ -152,7 +150,7 @@ def box_box(forms, a, b, limit, raw):
     return deepest_corner(forms, a, b, face, n, gap, raw)
 
 
-@compiled
+@inner
 def best_face(forms, a, b, d, size, limit):
     """(separation, face, n from a to b): the best normal of a face, 0–2 of a, 3–5 of b.
 
@@ -173,7 +171,7 @@ def best_face(forms, a, b, d, size, limit):
     return best, face, normal
 
 
-@compiled
+@inner
 def best_edges(forms, a, b, d, size, limit):
     """(separation, 3 k + l, n from a to b): the best cross product of an axis k of a and an axis l of b."""
     best, pair, normal = -np.inf, 0, (1.0, 0.0, 0.0)
@@ -193,7 +191,7 @@ def best_edges(forms, a, b, d, size, limit):
     return best, pair, normal
 
 
-@compiled
+@inner
 def edge_points(forms, a, k, edge_a, b, l, edge_b):
     """The closest points of an edge of box a along its axis k and one of box b along its axis l."""
     p, q = middle_of_edge(forms, a, k, edge_a), middle_of_edge(forms, b, l, edge_b)
@@ -203,7 +201,7 @@ def edge_points(forms, a, k, edge_a, b, l, edge_b):
     return along(p, s, e), along(q, t, g)
 
 
-@compiled
+@inner
 def closest_boxes(forms, a, b, limit, raw, default):
     """One contact at the closest points of two boxes that are apart, by trying all corners and edges."""
     best, p, q, feature_a, feature_b = np.inf, default, default, 0, 0
@@ -226,7 +224,7 @@ def closest_boxes(forms, a, b, limit, raw, default):
     return put_balls(raw, 0, limit, p, 0.0, q, 0.0, default, feature_a, feature_b)
 
 
-@compiled
+@inner
 def deepest_corner(forms, a, b, face, n, gap, raw):
     """One contact at the corner that is farthest beyond a face: for overlaps where no faces meet."""
     other, outward = (b, scaled(-1.0, n)) if face < 3 else (a, n)

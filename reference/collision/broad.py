@@ -1,9 +1,9 @@
 """The broad phase: which pairs of bounding boxes overlap, in a time that grows as the number of solids does.
 
-A hierarchy of grids. Each solid lies in one cell of the grid whose cells are two to four times its own size, and looks
-for others in its own grid and in all coarser ones: there at most a few cells can hold what it overlaps. So
-pebbles and boulders mix freely, and every pair is found once. The cells are kept in a hash table. Planes are
-without end: each is tried with all solids.
+A hierarchy of grids. Each solid lies in one cell of the grid whose cells are two to four times as wide as it
+is, and looks for others in its own grid and in all coarser ones: there at most a few cells can hold what it
+overlaps. So pebbles and boulders mix freely, and every pair is found once. The cells are kept in a hash
+table. Planes are without end: each is tried with all solids.
 
 Slides S10; lectures/05_contact.md. Source: Ericson, Real-Time Collision Detection (2005), section 7.2.
 """
@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import inner
 from .solids import PLANE
 
 _FEW = 24  # so few solids are tried each with each
@@ -45,7 +45,7 @@ def make_grid(s, d):
     )
 
 
-@compiled
+@inner
 def find_pairs(solids, grid, pairs, spare):
     """Fill pairs (capacity, 2) with solids a < b that may touch and whose bounding boxes overlap, sorted.
 
@@ -70,7 +70,7 @@ def find_pairs(solids, grid, pairs, spare):
     return found
 
 
-@compiled
+@inner
 def note(solids, a, b, pairs, found):
     """Write the pair, lower number first, if it counts and there is room; returns how many count so far."""
     if not (overlap(solids, a, b) and may_touch(solids, min(a, b), max(a, b))):
@@ -80,7 +80,7 @@ def note(solids, a, b, pairs, found):
     return found + 1
 
 
-@compiled
+@inner
 def overlap(solids, a, b):
     """Whether the bounding boxes overlap, and the centre is near enough to what is a plane.
 
@@ -96,7 +96,7 @@ def overlap(solids, a, b):
     return a != b
 
 
-@compiled
+@inner
 def near_plane(solids, a, b):
     """Whether the ball that holds solid b, grown by the reach of both, comes to the plane a."""
     height = 0.0
@@ -105,7 +105,7 @@ def near_plane(solids, a, b):
     return height <= solids.form.radius[b] + solids.reach[a] + solids.reach[b]
 
 
-@compiled
+@inner
 def may_touch(solids, a, b):
     """Whether a < b may touch: one of them moves, they are not of one group, and nobody has ruled it out."""
     if solids.slot[a] < 0 and solids.slot[b] < 0:
@@ -115,7 +115,7 @@ def may_touch(solids, a, b):
     return len(solids.apart) == 0 or row_of(solids.apart, a * len(solids.kind) + b) < 0
 
 
-@compiled
+@inner
 def row_of(keys, key):
     """Where a key stands in a sorted array; −1 where it doesn't."""
     low, high = 0, len(keys)
@@ -128,13 +128,13 @@ def row_of(keys, key):
     return low if low < len(keys) and keys[low] == key else -1
 
 
-@compiled
+@inner
 def width(level):
     """Of the cells of a grid, m."""
     return 2.0 ** (level - _LEVELS // 2 + 2)
 
 
-@compiled
+@inner
 def fill(solids, grid):
     """Put each solid into a cell, and the cells into the hash table."""
     s, d = grid.cell.shape
@@ -159,30 +159,31 @@ def fill(solids, grid):
             grid.member[grid.head[b]] = a
 
 
-@compiled
+@inner
 def choose_level(solids, a):
     """The grid whose cells are two to four times as wide as the solid; else ``_NONE`` or ``_ENDLESS``."""
-    extent, farthest, finite = 0.0, 0.0, 0.0
+    if solids.kind[a] == PLANE:
+        return _ENDLESS
+    extent, farthest = 0.0, 0.0
     for k in range(solids.low.shape[1]):
         low, high = solids.low[a, k], solids.high[a, k]
+        if not (abs(low) < np.inf and abs(high) < np.inf):
+            return _NONE
         extent, farthest = max(extent, high - low), max(farthest, abs(low), abs(high))
-        finite += 0 * low + 0 * high
-    if solids.kind[a] == PLANE or not extent < 2.0**30:
-        return _ENDLESS if solids.kind[a] == PLANE or finite == 0 else _NONE
-    if finite != 0:
-        return _NONE
+    if extent >= 2.0**30:
+        return _ENDLESS
     level = max(math.frexp(extent)[1] + _LEVELS // 2 - 1, 0)  # frexp: 2ᵏ⁻¹ ≤ extent < 2ᵏ
     return level if farthest < 2.0**50 * width(level) else _ENDLESS
 
 
-@compiled
+@inner
 def bucket_of(grid, a):
     """The bucket of the cell in which a solid lies."""
     z = grid.cell[a, 2] if grid.cell.shape[1] == 3 else 0
     return bucket(grid, grid.level[a], grid.cell[a, 0], grid.cell[a, 1], z)
 
 
-@compiled
+@inner
 def bucket(grid, level, x, y, z):
     """The bucket of a cell: its numbers, each times a large prime, mixed."""
     mixed = x * 73856093 ^ y * 19349663 ^ z * 83492791 ^ level * 15485863
@@ -190,7 +191,7 @@ def bucket(grid, level, x, y, z):
     return mixed & (len(grid.head) - 2)
 
 
-@compiled
+@inner
 def look_around(solids, grid, a, pairs, found):
     """Note each pair of a and a solid in its own grid with a higher number, or in a coarser grid."""
     space = grid.cell.shape[1] == 3
@@ -220,7 +221,7 @@ def look_around(solids, grid, a, pairs, found):
     return found
 
 
-@compiled
+@inner
 def sort_pairs(pairs, found, into, start):
     """Sort by the first solid, then the second: a counting sort, and an insertion sort of each short row."""
     start[:] = 0

@@ -8,7 +8,7 @@ Slides S10; lectures/05_contact.md.
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import inner
 from ..rotation import cross, vector
 from .boxes import edge_towards, middle_of_edge, reach, within
 from .clipping import box_edge
@@ -30,7 +30,7 @@ from .closest import (
 _PARALLEL = 1e-4  # sine below which the segment is parallel to an edge, and their cross product no axis
 
 
-@compiled
+@inner
 def box_capsule(forms, a, b, limit, raw):
     """0 to 2 contacts. Features of the capsule: 1 and 2 an end, 0 its side."""
     d = minus(vector(forms.x, b), vector(forms.x, a))
@@ -55,7 +55,7 @@ def box_capsule(forms, a, b, limit, raw):
     return put_through(raw, 0, along(q, -gap, n), q, n, gap, r, 20 + k, 1 + (end > 0))
 
 
-@compiled
+@inner
 def put_through(raw, k, p, q, n, gap, r, feature_a, feature_b):
     """One contact of the box's p and the segment's q, whose distance along n is ``gap``; returns k + 1."""
     middle = along(p, 0.5, minus(q, p))
@@ -63,7 +63,7 @@ def put_through(raw, k, p, q, n, gap, r, feature_a, feature_b):
     return k + 1
 
 
-@compiled
+@inner
 def best_face_for_segment(forms, a, d, g):
     """(separation, axis k, n): the face of box a from which the segment d ± g is farthest away."""
     best, face, normal = -np.inf, 0, (1.0, 0.0, 0.0)
@@ -76,7 +76,7 @@ def best_face_for_segment(forms, a, d, g):
     return best, face, normal
 
 
-@compiled
+@inner
 def best_edge_for_segment(forms, a, d, g):
     """(separation, axis k, n): the same for the cross products of the segment and the box's axes."""
     best, edge, normal = -np.inf, 0, (1.0, 0.0, 0.0)
@@ -93,9 +93,9 @@ def best_edge_for_segment(forms, a, d, g):
     return best, edge, normal
 
 
-@compiled
+@inner
 def segment_on_face(forms, a, b, k, n, d, g, limit, raw):
-    """(m, lowest): 0 to 2 contacts where the segment is over a face; lowest: its least height, inf if nowhere."""
+    """(m, lowest): 0 to 2 contacts where the segment is over a face; lowest: its least height, or inf."""
     low, high, low_side, high_side = -1.0, 1.0, -1, -1
     for side in range(2):
         across = (k + 1 + side) % 3
@@ -127,7 +127,7 @@ def segment_on_face(forms, a, b, k, n, d, g, limit, raw):
     return m, min(w_low, w_high)
 
 
-@compiled
+@inner
 def segment_at_edge(forms, a, l, edge, b, g):
     """The closest points of an edge of box a along its axis l and the segment of b."""
     p, e = middle_of_edge(forms, a, l, edge), scaled(forms.size[a, l], body_axis(forms, a, l))
@@ -135,7 +135,7 @@ def segment_at_edge(forms, a, l, edge, b, g):
     return along(p, s, e), along(vector(forms.x, b), t, g)
 
 
-@compiled
+@inner
 def closest_to_segment(forms, a, b, g, limit, raw, default):
     """One contact at the closest points of the box and the segment, which are apart: tries ends and edges."""
     best, p, q, feature_a, feature_b = np.inf, default, default, 0, 0

@@ -6,34 +6,35 @@ so a corner's gap is w.
 
 Each corner of what is left lies on two lines, and their names make its id: two edges of the incident face (a
 corner of that box), one edge of each (a crossing), or two edges of the reference face (a corner of that box).
-So an id says which features touch, and doesn't depend on which face was the reference. Corners within
-``SLOP`` of an edge are moved on to it and count as inside: so equal boxes on top of each other keep their ids.
+So an id says which features touch, and doesn't depend on which face was the reference. Corners that are
+outside by less than ``SLOP`` are moved on to the edge: so equal boxes on top of each other keep their ids.
 
-Features of a box: 0–7 a corner (bit k set: positive along axis k), 8–19 an edge, 20–22 a face, by its axis, 26 any.
+Features of a box: 0–7 a corner (bit k set: positive along axis k), 8–19 an edge, 20–22 a face, by its axis,
+26 any.
 
 Slides S10; lectures/05_contact.md. Source: Sutherland & Hodgman, Reentrant Polygon Clipping (1974).
 """
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import inner
 from ..rotation import store, vector
 from .closest import SLOP, TIE, along, body_axis, dot, minus, put, scaled, sign
 
 _LEVEL = 1e-4  # of the face's size: depths that differ by less are equally deep, when four corners are chosen
 
 
-@compiled
+@inner
 def box_edge(k, edge):
     """The feature of a box's edge along axis k; edge: two bits, its sides along axes k + 1 and k + 2."""
     return 8 + 4 * k + edge
 
 
-@compiled
+@inner
 def face_contact(forms, a, b, face, n, limit, raw):
     """(m, lowest): contacts of boxes a and b by a face (0–2 of a, 3–5 of b), n from a to b.
 
-    m: 0 to 4, with gaps within the limit; lowest: the smallest height of any corner, inf if the faces don't meet.
+    m: 0 to 4, with gaps within the limit; lowest: the least height of a corner, inf if the faces don't meet.
     """
     r, o, k, turn = (a, b, face, 1.0) if face < 3 else (b, a, face - 3, -1.0)
     n_r = scaled(turn, n)
@@ -77,7 +78,7 @@ def face_contact(forms, a, b, face, n, limit, raw):
     return m, lowest
 
 
-@compiled
+@inner
 def facing(forms, o, n):
     """The axis of box o that is most nearly parallel to n; of equals the first."""
     best = 0
@@ -88,9 +89,9 @@ def facing(forms, o, n):
     return best
 
 
-@compiled
+@inner
 def outline_incident(forms, r, k, n_r, o, l, other, raw):
-    """Fill raw.corner (4 rows) with the incident face's corners as (u, v, w), raw.label with its edges, 0–3."""
+    """Fill raw.corner with the incident face's four corners as (u, v, w), raw.label with its edges."""
     u_axis, v_axis = body_axis(forms, r, (k + 1) % 3), body_axis(forms, r, (k + 2) % 3)
     l1, l2 = (l + 1) % 3, (l + 2) % 3
     d = minus(vector(forms.x, o), vector(forms.x, r))
@@ -103,9 +104,9 @@ def outline_incident(forms, r, k, n_r, o, l, other, raw):
         raw.label[c] = c
 
 
-@compiled
+@inner
 def cut(raw, corners, side, extent, slop):
-    """Cut the outline at one side of the reference face (0, 1: ±u; 2, 3: ±v); returns how many corners are left.
+    """Cut the outline at a side of the reference face (0, 1: ±u; 2, 3: ±v); returns how many corners it has.
 
     raw.label[c]: the line from corner c to the next, 0–3 an incident edge, 4 + side a side.
     """
@@ -133,13 +134,13 @@ def cut(raw, corners, side, extent, slop):
     return kept
 
 
-@compiled
+@inner
 def copy_corner(a, i, b, j):
     """Row i of a into row j of b."""
     b[j, 0], b[j, 1], b[j, 2] = a[i, 0], a[i, 1], a[i, 2]
 
 
-@compiled
+@inner
 def repeated(raw, c, m, slop):
     """Whether corner c coincides with one of the first m, those already kept."""
     for i in range(m):
@@ -152,9 +153,9 @@ def repeated(raw, c, m, slop):
     return False
 
 
-@compiled
+@inner
 def features(before, after, k, own, l, other):
-    """(of the reference, of the incident box): what meets at a corner between the lines ``before`` and ``after``.
+    """(of the reference, of the incident box): what meets where the lines ``before`` and ``after`` do.
 
     k, l: the axes of the reference and the incident face; own, other: 1 for the face on the positive side.
     """
@@ -168,13 +169,13 @@ def features(before, after, k, own, l, other):
     return side_edge(k, own, side), incident_edge(l, other, edge)
 
 
-@compiled
+@inner
 def corner_code(k, s, s1, s2):
     """The corner with these signs (0, 1) along the axes k, k + 1 and k + 2."""
     return s << k | s1 << (k + 1) % 3 | s2 << (k + 2) % 3
 
 
-@compiled
+@inner
 def side_edge(k, s, side):
     """The edge of a face (axis k, sign s) on one of its sides: 0, 1 at ±u, 2, 3 at ±v."""
     positive = 1 - side % 2
@@ -183,7 +184,7 @@ def side_edge(k, s, side):
     return box_edge((k + 1) % 3, positive + 2 * s)  # along u, axis k + 1; its bits are the axes k + 2 and k
 
 
-@compiled
+@inner
 def incident_edge(l, s, edge):
     """The edge from corner ``edge`` of an incident face to the next: they run −u, −v, +u, +v round it."""
     if edge == 0 or edge == 2:
@@ -191,7 +192,7 @@ def incident_edge(l, s, edge):
     return side_edge(l, s, 1 if edge == 1 else 0)
 
 
-@compiled
+@inner
 def choose_four(raw, m, size):
     """Put four of the m corners first: the deepest, then what makes the largest triangle and quadrangle.
 
@@ -209,7 +210,7 @@ def choose_four(raw, m, size):
             raw.pick[chosen, i], raw.pick[best, i] = raw.pick[best, i], raw.pick[chosen, i]
 
 
-@compiled
+@inner
 def worth(raw, c, chosen):
     """What corner c adds to those chosen: depth, squared distance, area, area outside the triangle."""
     if chosen == 0:
@@ -223,7 +224,7 @@ def worth(raw, c, chosen):
     return max(-turn * area(raw, 0, 1, c), -turn * area(raw, 1, 2, c), -turn * area(raw, 2, 0, c))
 
 
-@compiled
+@inner
 def area(raw, i, j, k):
     """Twice the area of three corners in the face, positive if anticlockwise."""
     return (raw.corner[j, 0] - raw.corner[i, 0]) * (raw.corner[k, 1] - raw.corner[i, 1]) - (

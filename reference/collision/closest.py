@@ -9,56 +9,56 @@ section 5.1.9.
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import inner
 from ..rotation import cross, store
 
 # Relative to the pair's size: what counts as touching a boundary (ids don't change within it), and as a tie.
 SLOP, TIE = 1e-5, 1e-6
 
 
-@compiled
+@inner
 def dot(a, b):
     """a·b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@compiled
+@inner
 def minus(a, b):
     """a − b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
-@compiled
+@inner
 def along(p, s, n):
     """p + s n."""
     return p[0] + s * n[0], p[1] + s * n[1], p[2] + s * n[2]
 
 
-@compiled
+@inner
 def scaled(s, n):
     """s n."""
     return s * n[0], s * n[1], s * n[2]
 
 
-@compiled
+@inner
 def norm(a):
     """|a|."""
     return np.sqrt(a[0] ** 2 + a[1] ** 2 + a[2] ** 2)
 
 
-@compiled
+@inner
 def clip(s, low, high):
     """s, or the bound it lies beyond."""
     return min(max(s, low), high)
 
 
-@compiled
+@inner
 def sign(s):
     """−1 for what is negative, else 1."""
     return -1.0 if s < 0 else 1.0
 
 
-@compiled
+@inner
 def tangent(n):
     """A unit vector t1 at right angles to n; t1(−n) = t1(n), so that only t2 = n × t1 turns with the sign.
 
@@ -76,7 +76,7 @@ def tangent(n):
     return scaled(1 / length, t)
 
 
-@compiled
+@inner
 def closest_on_segments(p, a, q, b):
     """(s, t), both −1 … 1, of the closest points p + s a and q + t b of two segments, neither a point.
 
@@ -90,13 +90,13 @@ def closest_on_segments(p, a, q, b):
     return clip((ab * t - ar) / aa, -1.0, 1.0), t
 
 
-@compiled
+@inner
 def body_axis(forms, a, k):
     """Axis k of solid a, world frame."""
     return forms.axes[a, k, 0], forms.axes[a, k, 1], forms.axes[a, k, 2]
 
 
-@compiled
+@inner
 def put(raw, k, point, n, gap, feature_a, feature_b):
     """Write contact k: the point half way between the surfaces, n from a to b, the gap, what touches what."""
     store(raw.point, k, point)
@@ -106,7 +106,7 @@ def put(raw, k, point, n, gap, feature_a, feature_b):
     raw.feature[k, 1] = feature_b
 
 
-@compiled
+@inner
 def put_balls(raw, k, limit, p, r_p, q, r_q, default, feature_a, feature_b):
     """The contact of balls about p (of a) and q (of b), if its gap is within the limit; returns k, or k + 1.
 
@@ -122,7 +122,7 @@ def put_balls(raw, k, limit, p, r_p, q, r_q, default, feature_a, feature_b):
     return k + 1
 
 
-@compiled
+@inner
 def crossing(a, b):
     """A unit vector at right angles to the unit vectors a and b, parallel or not."""
     n = cross(a, b)

@@ -42,7 +42,7 @@ def _choose_two(n):
 class Collider:
     """What ``find_contacts`` works with; made by ``make_collider``.
 
-    solids: ``Solids``; contacts: ``ContactArrays``, whose first ``count`` rows are valid; detect: the compiled
+    solids: ``Solids``; contacts: ``ContactArrays``, whose first ``count`` rows count; detect: the compiled
     kernel, called as detect(*arrays, contacts, state, margin, h) (see ``find.detect``); arrays: the tuple
     (solids, grid, pairs, spare, raw). ``make_room`` replaces ``contacts`` and ``arrays`` by larger ones.
     """
@@ -62,7 +62,7 @@ class Collider:
         return int(self.contacts.count[0])
 
     def make_room(self, pairs, contacts):
-        """Room for at least so many pairs and contacts; where it has to grow, it doubles. What was found is lost."""
+        """Room for at least so many pairs and contacts, by doubling. What was found is lost."""
         pairs = _doubled(len(self.arrays[2]) if self.arrays else 1, pairs)
         self.arrays = (
             self.solids,
@@ -82,16 +82,18 @@ def _doubled(size, needed):
 
 
 def make_collider(bodies, scene):
-    """A ``Collider`` for a scene laid out as ``bodies`` (``layout.Bodies``); None where nothing can ever touch."""
+    """A ``Collider`` for a scene laid out as ``bodies``; None where nothing can ever touch."""
     return Collider(bodies, scene) if count_pairs(scene) > 0 else None
 
 
 def find_contacts(collider, state, margin, h=0.0):
     """Find all contacts of a ``State`` with gaps of up to ``margin``, m; returns how many there are.
 
-    They stand in the first rows of ``collider.contacts``. h, s: count also what could meet within this time: a pair's
-    margin grows by h times a bound on the speed of each of the two (speed of the centre + |ω| times the radius).
+    They stand in the first rows of ``collider.contacts``. h, s: count also what could meet within this time:
+    a pair's margin grows by h times a bound on the speed of each of the two (that of the centre, and |ω|
+    times the radius). What is not finite has no contacts: whoever moves the bodies looks for that.
     """
+    margin, h = float(margin), float(h)
     while True:
         pairs, contacts = collider.detect(*collider.arrays, collider.contacts, state, margin, h)
         if pairs <= len(collider.arrays[2]) and contacts <= len(collider.contacts.gap):

@@ -1,10 +1,11 @@
 """From the state to the contacts: place the solids, find pairs, let each pair's routine find its contacts.
 
-``detect`` is one compiled kernel a dimension. It allocates nothing; where its arrays are too small it says how much it needs.
+``detect`` is one compiled kernel a dimension. It allocates nothing; where its arrays are too small, it says
+how much it needs.
 
 **Order.** Pairs by the bodies' numbers, and in a pair by id: the same scene gives the same rows in the same
-order. A pair's routine is called with its two solids in an order of their own, by shape, size and place, not by number.
-So numbering the bodies differently gives the same contacts to the last bit, but for the sign of n.
+order. A pair's routine is called with its two solids in an order of their own, by shape, size and place, not
+by number. So numbering the bodies differently gives the same contacts, but for the sign of n.
 
 Slides S10; lectures/05_contact.md.
 """
@@ -13,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import bind, compiled
+from ..compiled import bind, inner, lean
 from ..rotation import cross, vector
 from .boxes import box_ball, box_box, plane_box
 from .broad import find_pairs, row_of
@@ -21,13 +22,13 @@ from .capsule_box import box_capsule
 from .closest import tangent
 from .polygons import disc_disc, halfplane_point, halfplane_polygon, pair, polygon_disc, polygon_polygon
 from .round import ball_ball, capsule_ball, capsule_capsule, plane_ball, plane_capsule
-from .solids import BALL, BOX, CAPSULE, PLANE, POLYGON, place
+from .solids import BALL, BOX, PLANE, place
 
 _MOST = 8  # corners of two faces cut to each other
 
 
 class ContactArrays(NamedTuple):
-    """Room for contacts in d dimensions; the first ``count[0]`` rows are those of the last call. World frame, SI.
+    """Room for contacts in d dimensions; the first ``count[0]`` rows are the last call's. World frame, SI.
 
     i is the body with the lower number in the scene, j the other.
     """
@@ -91,11 +92,12 @@ def make_raw(d):
     )
 
 
-@compiled
+@lean
 def detect(touch, write_frame, solids, grid, pairs, spare, raw, contacts, state, margin, h):
     """(pairs, contacts) that there are. More than there is room for: make room and call again.
 
-    touch(kind, kind, forms, a, b, limit, raw) → number of contacts of a pair in its order; write_frame(frame, row, n, k).
+    touch(kind, kind, forms, a, b, limit, raw): the number of contacts of a pair, in its order;
+    write_frame(frame, row, normal, k).
     """
     place(solids, state, margin, h)
     found = find_pairs(solids, grid, pairs, spare)
@@ -120,7 +122,7 @@ def detect(touch, write_frame, solids, grid, pairs, spare, raw, contacts, state,
     return found, count
 
 
-@compiled
+@inner
 def in_order(solids, a, b):
     """Whether a comes before b, by what they are: kind, then size (larger first), then place, lower first.
 
@@ -139,7 +141,7 @@ def in_order(solids, a, b):
     return ahead >= 0
 
 
-@compiled
+@inner
 def touch_in_space(kind_a, kind_b, forms, a, b, limit, raw):
     """The contacts of a pair in its order: the routine for its two kinds."""
     if kind_a == PLANE:
@@ -161,7 +163,7 @@ def touch_in_space(kind_a, kind_b, forms, a, b, limit, raw):
     return capsule_capsule(forms, a, b, limit, raw)
 
 
-@compiled
+@inner
 def touch_in_plane(kind_a, kind_b, forms, a, b, limit, raw):
     """The contacts of a pair in its order: the routine for its two kinds."""
     if kind_a == PLANE:
@@ -175,7 +177,7 @@ def touch_in_plane(kind_a, kind_b, forms, a, b, limit, raw):
     return polygon_polygon(forms, a, b, limit, raw)
 
 
-@compiled
+@inner
 def frame_in_space(frame, row, normal, k):
     """Rows n, t1 (see ``closest.tangent``), t2 = n × t1."""
     n = vector(normal, k)
@@ -186,14 +188,14 @@ def frame_in_space(frame, row, normal, k):
     frame[row, 2, 0], frame[row, 2, 1], frame[row, 2, 2] = t2
 
 
-@compiled
+@inner
 def frame_in_plane(frame, row, normal, k):
     """Rows n and t1, which is n turned by a quarter anticlockwise."""
     x, y = normal[k, 0], normal[k, 1]
     frame[row, 0, 0], frame[row, 0, 1], frame[row, 1, 0], frame[row, 1, 1] = x, y, -y, x
 
 
-@compiled
+@inner
 def write(write_frame, solids, a, b, swapped, raw, k, contacts, row):
     """Contact k of the pair a < b into its row. Features are numbered within 2¹⁶."""
     feature_a, feature_b = raw.feature[k, 0], raw.feature[k, 1]
@@ -221,7 +223,7 @@ def write(write_frame, solids, a, b, swapped, raw, k, contacts, row):
     contacts.friction[row], contacts.restitution[row] = friction, restitution
 
 
-@compiled
+@inner
 def sort_by_id(contacts, first, m):
     """Sort m rows from ``first`` by id."""
     for row in range(first + 1, first + m):
@@ -231,7 +233,7 @@ def sort_by_id(contacts, first, m):
             k -= 1
 
 
-@compiled
+@inner
 def swap_rows(contacts, i, j):
     """Exchange two contacts of one pair: what differs within a pair."""
     contacts.id[i], contacts.id[j] = contacts.id[j], contacts.id[i]

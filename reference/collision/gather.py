@@ -5,6 +5,7 @@ Slides S10; lectures/05_contact.md.
 
 import numpy as np
 
+from ..compiled import plain
 from ..shapes import Box, Capsule, Disc, Plane, Point, Polygon, Sphere
 from .solids import BALL, BOX, CAPSULE, PLANE, POLYGON, Forms, Solids, place_in_plane, place_in_space
 
@@ -55,7 +56,7 @@ def make_solids(bodies, scene):
         low=np.zeros((s, d)),
         high=np.zeros((s, d)),
     )
-    turn = place_in_space if d == 3 else place_in_plane
+    turn = plain(place_in_space if d == 3 else place_in_plane)
     for a in range(s):
         if solids.slot[a] < 0:
             turn(solids, a, orientation[a])

@@ -1,10 +1,10 @@
 """Contacts in the plane: convex polygons, thick ones too, discs and half-planes.
 
-A box is a polygon of four corners; a capsule is one as well, with no width, thickened by its radius. (So it has
-four sides, two of no length, whose normals point along it.) Two polygons are apart if a normal of a
-side separates them. The one along which they are farthest apart, or overlap least, is n. The other polygon's
-side that looks most towards it is cut to it, which leaves two points or one; where that misses, though the polygons
-are apart, the closest points are corners.
+A box is a polygon of four corners; a capsule is one as well, with no width, thickened by its radius. (So it
+has four sides, two of no length, whose normals point along it.) Two polygons are apart if a normal of a side
+separates them. The one along which they are farthest apart, or overlap least, is n. The other polygon's side
+that looks most towards it is cut to it, which leaves two points or one; where that misses, though the
+polygons are apart, the closest points are corners.
 
 Near ties are decided for the first polygon's side, so that resting contact doesn't flicker.
 Features: 2 k a corner, 2 k + 1 the side from corner k to the next.
@@ -14,17 +14,17 @@ Slides S10; lectures/05_contact.md.
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import inner
 from .closest import SLOP, TIE, clip
 
 
-@compiled
+@inner
 def pair(a, i):
     """Row i of an array (n, 2) as components."""
     return a[i, 0], a[i, 1]
 
 
-@compiled
+@inner
 def put_planar(raw, k, x, y, n, gap, feature_a, feature_b):
     """Write contact k; like ``closest.put``, in the plane."""
     raw.point[k, 0], raw.point[k, 1] = x, y
@@ -34,7 +34,7 @@ def put_planar(raw, k, x, y, n, gap, feature_a, feature_b):
     raw.feature[k, 1] = feature_b
 
 
-@compiled
+@inner
 def put_discs(raw, k, limit, p, r_p, q, r_q, default, feature_a, feature_b):
     """The contact of discs about p (of a) and q (of b), if within the limit; returns k, or k + 1."""
     dx, dy = q[0] - p[0], q[1] - p[1]
@@ -50,14 +50,14 @@ def put_discs(raw, k, limit, p, r_p, q, r_q, default, feature_a, feature_b):
     return k + 1
 
 
-@compiled
+@inner
 def disc_disc(forms, a, b, limit, raw):
     """0 or 1 contacts; n is upwards where the centres coincide."""
     r_a, r_b = forms.size[a, 0], forms.size[b, 0]
     return put_discs(raw, 0, limit, pair(forms.x, a), r_a, pair(forms.x, b), r_b, (0.0, 1.0), 0, 0)
 
 
-@compiled
+@inner
 def halfplane_point(forms, a, p, r, limit, raw, m, feature):
     """A disc of radius r about p against the plane a, if near; returns m, or m + 1."""
     n, x = (forms.axes[a, 0, 0], forms.axes[a, 0, 1]), pair(forms.x, a)
@@ -69,7 +69,7 @@ def halfplane_point(forms, a, p, r, limit, raw, m, feature):
     return m + 1
 
 
-@compiled
+@inner
 def halfplane_polygon(forms, a, b, limit, raw):
     """The ends of the side that looks most towards the plane, if near: 0 to 2 contacts."""
     n, first, last = (forms.axes[a, 0, 0], forms.axes[a, 0, 1]), forms.first[b], forms.first[b + 1]
@@ -83,7 +83,7 @@ def halfplane_polygon(forms, a, b, limit, raw):
     )
 
 
-@compiled
+@inner
 def facing_side(forms, first, last, n):
     """The side of a polygon whose normal is most nearly opposite to n; of equals the first.
 
@@ -97,7 +97,7 @@ def facing_side(forms, first, last, n):
     return best
 
 
-@compiled
+@inner
 def polygon_disc(forms, a, b, limit, raw):
     """0 or 1 contacts. A centre inside the polygon is pushed out through the nearest side."""
     c, first, last = pair(forms.x, b), forms.first[a], forms.first[a + 1]
@@ -121,7 +121,7 @@ def polygon_disc(forms, a, b, limit, raw):
     return 1
 
 
-@compiled
+@inner
 def polygon_polygon(forms, a, b, limit, raw):
     """0 to 2 contacts."""
     thick, size = forms.size[a, 0] + forms.size[b, 0], min(forms.radius[a], forms.radius[b])
@@ -147,7 +147,7 @@ def polygon_polygon(forms, a, b, limit, raw):
     return m
 
 
-@compiled
+@inner
 def best_side(forms, a, b, size):
     """(separation, side): the side of polygon a from which polygon b is farthest away."""
     best, side = -np.inf, forms.first[a]
@@ -161,7 +161,7 @@ def best_side(forms, a, b, size):
     return best, side
 
 
-@compiled
+@inner
 def side_contact(forms, r, o, side, limit, slop, raw):
     """(m, lowest): polygon o against a side of r: its facing side, cut to that; n and features from r to o.
 
@@ -199,7 +199,7 @@ def side_contact(forms, r, o, side, limit, slop, raw):
     return m, lowest
 
 
-@compiled
+@inner
 def closest_corners(forms, a, b, limit, raw, turn):
     """One contact at the closest points of two polygons that are apart: each corner against each side."""
     best, p, q, feature_a, feature_b = np.inf, (0.0, 0.0), (0.0, 0.0), 0, 0
@@ -221,9 +221,9 @@ def closest_corners(forms, a, b, limit, raw, turn):
     return put_discs(raw, 0, limit, p, r_a, q, r_b, (0.0, turn), feature_a, feature_b)
 
 
-@compiled
+@inner
 def deepest_point(forms, r, o, side, gap, raw):
-    """One contact at the corner of o that is farthest beyond a side of r: for overlaps where no sides meet."""
+    """One contact at the corner of o that is farthest beyond a side of r: where sides don't meet."""
     p, n, deepest = pair(forms.corner, side), pair(forms.normal, side), forms.first[o]
     for c in range(forms.first[o], forms.first[o + 1]):
         w = (forms.corner[c, 0] - p[0]) * n[0] + (forms.corner[c, 1] - p[1]) * n[1]

@@ -6,7 +6,7 @@ contacts, at the ends of the stretch which they share, so that neither can tip a
 Slides S10; lectures/05_contact.md.
 """
 
-from ..compiled import compiled
+from ..compiled import inner
 from ..rotation import vector
 from .closest import (
     along,
@@ -28,14 +28,14 @@ UP = (0.0, 0.0, 1.0)  # n of balls with one centre: any direction is right, this
 _SIDE_BY_SIDE = 1e-3  # of the radii: how much farther apart than the closest points the ends may be
 
 
-@compiled
+@inner
 def ball_ball(forms, a, b, limit, raw):
     """Returns the number of contacts, 0 or 1."""
     r_a, r_b = forms.size[a, 0], forms.size[b, 0]
     return put_balls(raw, 0, limit, vector(forms.x, a), r_a, vector(forms.x, b), r_b, UP, 0, 0)
 
 
-@compiled
+@inner
 def capsule_ball(forms, a, b, limit, raw):
     """The ball against the nearest point of the capsule's segment: 0 or 1 contacts."""
     x, c, e = vector(forms.x, a), vector(forms.x, b), body_axis(forms, a, 2)
@@ -44,7 +44,7 @@ def capsule_ball(forms, a, b, limit, raw):
     return put_balls(raw, 0, limit, along(x, s, e), r_a, c, r_b, crossing(e, e), 0, 0)
 
 
-@compiled
+@inner
 def capsule_capsule(forms, a, b, limit, raw):
     """1 contact where the segments are closest; 2 where they lie side by side.
 
@@ -79,13 +79,13 @@ def capsule_capsule(forms, a, b, limit, raw):
     return put_balls(raw, 0, limit, p, r_a, q, r_b, default, 0, 0)
 
 
-@compiled
+@inner
 def plane_ball(forms, a, b, limit, raw):
     """0 or 1 contacts."""
     return plane_point(forms, a, vector(forms.x, b), forms.size[b, 0], limit, raw, 0, 0)
 
 
-@compiled
+@inner
 def plane_capsule(forms, a, b, limit, raw):
     """Each end of the capsule that is near: 0 to 2 contacts."""
     m = 0
@@ -95,7 +95,7 @@ def plane_capsule(forms, a, b, limit, raw):
     return m
 
 
-@compiled
+@inner
 def plane_point(forms, a, p, r, limit, raw, m, feature):
     """A ball of radius r about p against the plane a, if near; returns m, or m + 1."""
     n = body_axis(forms, a, 0)

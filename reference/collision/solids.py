@@ -1,4 +1,4 @@
-"""Everything that can be touched, as flat arrays: shapes by number, poses in the world, and who may meet whom.
+"""What can be touched, as flat arrays: shapes by number, poses in the world, and who may meet whom.
 
 A *solid* is a body with a size; solids are numbered in the order of the scene, points left out.
 
@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import inner
 from ..rotation import conjugate, multiply, normalise, quaternion, rotate
 
 # Kinds, in the order in which a pair's routine takes its two solids. In the plane boxes and capsules are
@@ -51,11 +51,11 @@ class Solids(NamedTuple):
     high: np.ndarray  # (s, d) upper corner
 
 
-@compiled
+@inner
 def place(solids, state, margin, h):
     """Take the poses of what moves from the state, and renew axes, corners, reach and bounding boxes.
 
-    margin: m, how far apart solids may be and still count; h: s, and how far they can come in so long besides.
+    margin: m, how far apart solids may be and still count; h: s, the time within which they may come closer.
     """
     for a in range(len(solids.kind)):
         slot = solids.slot[a]
@@ -66,7 +66,7 @@ def place(solids, state, margin, h):
         bound(solids, a)
 
 
-@compiled
+@inner
 def take_pose(solids, a, state, slot):
     """Position and axes of solid a from its row of the state; returns a bound on the speed of its points."""
     squared, turning = 0.0, 0.0
@@ -83,7 +83,7 @@ def take_pose(solids, a, state, slot):
     return np.sqrt(squared) + np.sqrt(turning) * solids.form.radius[a]
 
 
-@compiled
+@inner
 def place_in_space(solids, a, q):
     """The axes of a solid that is turned by q, body frame → world."""
     axes = solids.form.axes
@@ -92,7 +92,7 @@ def place_in_space(solids, a, q):
     axes[a, 2, 0], axes[a, 2, 1], axes[a, 2, 2] = rotate(q, (0.0, 0.0, 1.0))
 
 
-@compiled
+@inner
 def place_in_plane(solids, a, θ):
     """The axes and corners of a solid that is turned by θ."""
     c, s, form = np.cos(θ), np.sin(θ), solids.form
@@ -104,7 +104,7 @@ def place_in_plane(solids, a, θ):
         form.normal[k, 0], form.normal[k, 1] = c * x - s * y, s * x + c * y
 
 
-@compiled
+@inner
 def bound(solids, a):
     """The bounding box of a solid, grown by its reach; that of a plane has no end."""
     kind, axes = solids.kind[a], solids.form.axes
