@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 from .envelope import Envelope, add_block, cholesky_in_envelope, make_envelope, solve_in_envelope
 
 NEAR, SMALLEST = 1e-6, 1e-10  # ε to begin with, and where passes shrink the error too slowly; rounding in λ is 1e-16/ε
@@ -114,7 +114,7 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
     return u, max_iterations, error
 
 
-@compiled(inline=False)
+@compiled_apart
 def block_sizes(rows, M, free, size):
     """A's largest diagonal entry of each block; returns the worst |w| of the free velocities."""
     scale = 0.0
@@ -170,7 +170,7 @@ def over_mass(M, a):
     return (a[0] ** 2 + a[1] ** 2 + a[2] ** 2) / M[0, 0] + turning / determinant
 
 
-@compiled(inline=False)
+@compiled_apart
 def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial):
     """Newton's method for one pass, with step halving: u in place, and what ``evaluate`` finds there into out."""
     value = evaluate(rows, M, free, λ, ρ, shift, u, out)
@@ -220,7 +220,7 @@ def worst_rate(M, gradient):
     return worst
 
 
-@compiled(inline=False)
+@compiled_apart
 def evaluate(rows, M, free, λ, ρ, shift, u, out):
     """The augmented Lagrangian at u, with λ̂, P′ and the gradient into ``out``."""
     value, k = 0.0, u.shape[1]
@@ -306,7 +306,7 @@ def put_slope(slope, r, a, b, c):
     slope[r, 0], slope[r, 1], slope[r, 2] = a, b, c
 
 
-@compiled(inline=False)
+@compiled_apart
 def fill_matrix(rows, M, ρ, out, factor):
     """M + ρ Jᵀ P′ J, block by block."""
     k, envelope, L = M.shape[1], factor.envelope, factor.L

@@ -65,14 +65,15 @@ def hop(sim, contacts, h):
 
     gap, end = gap_after(h), h
     expected = coming.gap + h * (w + 0.5 * h * hastening)[to_come]  # had it flown straight on, unhindered
-    if gap >= 0 and expected.min() >= -sim.closed:
+    through = (expected < -sim.closed) & (coming.gap > sim.closed)
+    if gap >= 0 and not np.any(through):
         return h
     if gap >= 0:  # right through the other, or past it: look for the moment when it was there
-        end = h * min(1.0, (coming.gap / (coming.gap - np.minimum(expected, 0.0) + 1e-300)).min())
+        end = h * (coming.gap[through] / (coming.gap[through] - expected[through])).min()
         gap = gap_after(end)
     turning = leaving & to_come & (hastening < 0)
     begin = np.min(-w[turning] / hastening[turning], initial=np.inf)  # when the first of them turns back
-    begin = begin if begin < end else 0.0
+    begin = begin if begin < end else 1e-6 * end
     return root(gap_after, begin, end, gap, 0.5 * sim.closed)
 
 
