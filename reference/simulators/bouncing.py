@@ -11,7 +11,7 @@ Slides S9, S10; lectures/05_contact.md.
 
 import numpy as np
 
-from ..contacts import part
+from ..contacts import part, spread
 from .flight import scatter_velocities
 from .impacts import rates
 
@@ -43,7 +43,7 @@ def strike(sim, contacts, h):
     rows = sim.rows(closed, np.zeros(len(e)))
     after, λ = sim.law(rows, e, sim.M, sim.before, solve)
     scatter_velocities(sim.system, after, sim.state)
-    sim.note(closed, rows, λ)
+    sim.touched.add(closed, spread(rows, λ, sim.d))
     return True
 
 

@@ -9,7 +9,6 @@ Slides S13; lectures/09_error_correction.md.
 
 import numpy as np
 
-from ..bodies import planar
 from ..compiled import compiled
 from ..contacts import label_islands
 from ..correction import displace
@@ -31,14 +30,14 @@ def lift(sim, contacts, h):
         label = np.minimum(label, label_islands(rows.bodies, len(δ)))
         d = sim.d
         displace(sim.state, δ[:, :d], δ[: len(sim.state.q), d:])
-        sim.refresh(h)
+        sim.fill(sim.now, h)
         contacts = sim.find(h)
         if contacts.gap.min(initial=0.0) >= -sim.closed:
             break
     gain = -(sim.system.mass[:, None] * sim.system.gravity * (sim.state.x - height)).sum(axis=1)
-    sim.lent += pay(label, gain, sim.M, sim.before)
+    sim.lifted += pay(label, gain, sim.M, sim.before)
     scatter_velocities(sim.system, sim.before, sim.state)
-    sim.refresh(h)
+    sim.fill(sim.now, h)
     return contacts
 
 
