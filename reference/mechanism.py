@@ -42,7 +42,7 @@ class Mechanism(NamedTuple):
     tolerance: float  # of φ, relative to the scale
 
 
-def make_mechanism(bodies, rigid, soft, solver, factor, tolerance=1e-12):
+def make_mechanism(bodies, rigid, soft, solver, factor, tolerance=1e-11):
     """Room for the rows of these bodies (``layout.Bodies``)."""
     d, r, m = bodies.dimension, len(bodies.rotating), len(rigid.kind)
     rows = Rows(*(np.concatenate(pair) for pair in zip(rigid, soft, strict=True)))

@@ -53,11 +53,15 @@ def meeting_rows(rows, place):
 
 @compiled
 def assemble(meeting, J, B, values):
-    """The entries of A = B Jᵀ on and below its diagonal, added up in ``values``."""
+    """The entries of A = B Jᵀ on and below its diagonal, added up in ``values``.
+
+    The sums are written out: a loop over so few numbers costs several times their arithmetic.
+    """
     values[:] = 0
+    planar = J.shape[2] == 3
     for s in range(len(meeting)):
-        p, q, side_p, side_q = meeting[s, 0], meeting[s, 1], meeting[s, 2], meeting[s, 3]
-        total = 0.0
-        for c in range(J.shape[2]):
-            total += B[p, side_p, c] * J[q, side_q, c]
+        p, q, i, j = meeting[s, 0], meeting[s, 1], meeting[s, 2], meeting[s, 3]
+        total = B[p, i, 0] * J[q, j, 0] + B[p, i, 1] * J[q, j, 1] + B[p, i, 2] * J[q, j, 2]
+        if not planar:
+            total += B[p, i, 3] * J[q, j, 3] + B[p, i, 4] * J[q, j, 4] + B[p, i, 5] * J[q, j, 5]
         values[meeting[s, 4]] += total

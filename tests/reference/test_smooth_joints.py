@@ -66,7 +66,8 @@ def test_a_chain_with_a_heavy_end(planar):
     else:
         assert np.linalg.norm(run.position[-1, -1][[0, 2]] - exact) < 0.06  # half a rod from the tip
         flat = simulate(jointed.chain(n, end, length=0.1), 1, 1 / 1000)
-        assert np.abs(run.position[:, :, [0, 2]] - flat.position).max() < 1e-9
+        # the same motion, with attitudes stepped as quaternions instead of angles
+        assert np.abs(run.position[:, :, [0, 2]] - flat.position).max() < 1e-6
     assert run.joint_error().max() < 1e-9 * 0.1
     E = run.energy()
     assert np.abs(E - E[0]).max() < 1e-3 * end * 9.81 * n * 0.1
@@ -93,7 +94,7 @@ def test_all_solvers_move_a_mechanism_alike(solver):
     run = simulate(jointed.hinged_chain(4), 0.5, 0.005, solver=solver)
     # rounding decides whether the projection takes one more iteration, of 1e-12
     assert np.abs(run.position - expected.position).max() < 1e-8 and run.settings["solver"] == solver
-    assert run.joint_error().max() < 1e-11
+    assert run.joint_error().max() < 2e-11
 
 
 def test_the_large_swing_of_a_pendulum_has_the_period_of_the_elliptic_integral():
@@ -150,7 +151,7 @@ def test_a_slider_on_an_incline_and_one_with_a_spring():
 def test_redundant_hinges_turn_as_one_hinge_does_and_say_so():
     run = simulate(jointed.door(ω=2), 1, 0.01)
     assert run.status == "ok" and "of 10 rows 5 are independent" in run.reason and "N m" in run.reason
-    assert run.angular_velocity[-1, 0] == pytest.approx([0, 0, 2], abs=1e-12)
+    assert run.angular_velocity[-1, 0] == pytest.approx([0, 0, 2], abs=1e-8)
     assert run.position[-1, 0] == pytest.approx([0.4 * np.cos(2), 0.4 * np.sin(2), 1], abs=1e-8)
     forces = run.joint_forces()
     centripetal = -10 * 0.4 * 4 * np.array([np.cos(2), np.sin(2), 0])
