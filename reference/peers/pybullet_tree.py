@@ -14,7 +14,8 @@ which moves freely. What closes a loop can't be in a tree: it becomes a constrai
 thousand times as hard: all are switched off here. The limit on coordinates' velocities (100) is lifted. Link
 frames are laid parallel to the world's at the start, so a JOINT_SPHERICAL's velocity, which is in the frame
 of the child, is the world's there. ``getLinkStates`` gives the velocity of the centre of mass, but of the
-step before unless told to compute it and the kinematics anew.
+step before unless told to compute it and the kinematics anew. Whatever order links are given in, the engine
+numbers them depth first, so that is the order here.
 
 **Springs and motors.** A spring is a torque −stiffness q − damping q̇ (or force), given anew before each step;
 a motor is the engine's own, bounded by max_force; limits are the engine's own too, hit without a bounce.
@@ -86,14 +87,21 @@ def _branches_from(i, joints_of):
 
 
 def _grown(branches, joints_of, reached):
-    """A tree's branches, nearest to its base first, from those at its base; ``reached`` gets the bodies."""
-    grown, queue = [], list(branches)
+    """A tree's branches, from those at its base; ``reached`` gets the bodies.
+
+    Each body hangs on the nearest to the base; the order is the engine's: a body, then all that hangs on it.
+    """
+    queue, hanging = list(branches), {}
     for branch in queue:
         if branch.body not in reached:
             reached.add(branch.body)
-            grown.append(branch)
+            hanging.setdefault(branch.parent, []).append(branch)
             queue += _branches_from(branch.body, joints_of)
-    return grown
+    ordered, stack = [], hanging[branches[0].parent][::-1] if branches else []
+    while stack:
+        ordered.append(stack.pop())
+        stack += hanging.get(ordered[-1].body, [])[::-1]
+    return ordered
 
 
 def link_arguments(p, scene, base_frame, branches, axes):
