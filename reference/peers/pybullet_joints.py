@@ -18,27 +18,14 @@ body's frame of principal axes, from its centre of mass.
 Slides S5, S9, S16; lectures/04_embedding.md.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ..joints import BallJoint, Fixed, Hinge, Slider
 from ..rotation import conjugate, multiply, over_arrays, rotate
 from ..scene import Unsupported
-from .pybullet_tree import BOUNDLESS
+from .pybullet_tree import BOUNDLESS, xyzw
 
 ARM = 0.5  # m: from a hinge's point to each of the two points on its axis
-
-
-class Place(NamedTuple):
-    """Where a body is in the engine: the number of its multibody and the link, −1 for the base.
-
-    axes: the quaternion principal axes (the engine's frame) → the body's frame.
-    """
-
-    number: int
-    link: int
-    axes: tuple
 
 
 class Constrainer:
@@ -109,8 +96,7 @@ class Constrainer:
         q = over_arrays(multiply)(body.orientation, np.array(place.axes))
         back = over_arrays(conjugate)(q)
         local = over_arrays(rotate)(back, point - body.position)
-        w, x, y, z = back.tolist()
-        return place.number, place.link, tuple(local.tolist()), (x, y, z, w)
+        return place.number, place.link, tuple(local.tolist()), xyzw(back)
 
     def _world(self):
         if not self.rigid:

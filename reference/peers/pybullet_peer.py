@@ -36,7 +36,11 @@ torque, for both kinds of body and several spins, and not with the other kind's 
 agree to 1e-11. Cut-off, limit, damping and sleeping were seen in single steps from chosen states. Bullet's
 public source (btMultiBody, read) has the explicit term and that damping. The tests repeat the steps.
 
-Slides S4, S9, S18; lectures/02_equation_of_motion.md.
+**Joints**: see ``pybullet_tree`` for multibodies and ``pybullet_joints`` for what closes a loop and for rigid
+bodies. Where they are constraints, the engine's sweeps end after ``iterations``, or before that once a sweep
+changes little (``residual``; 0: never).
+
+Slides S4, S5, S9, S18; lectures/02_equation_of_motion.md, lectures/04_embedding.md.
 """
 
 import math
@@ -45,18 +49,17 @@ import weakref
 import numpy as np
 
 from ..compiled import plain
-from ..inertia import principal_axes
+from ..joints import BallJoint
 from ..rotation import conjugate, multiply
 from ..scene import Unsupported
-from ..shapes import Point
 from .engine import Between, Engine, Peer
 from .forces import Forces
-from .pybullet_joints import Constrainer, Place
-from .pybullet_tree import link_arguments, set_joints, trees
+from .pybullet_joints import Constrainer
+from .pybullet_tree import add_tree, check_size, set_joints
 from .quiet import silence
+from .trees import trees
 
 _multiply, _conjugate = plain(multiply), plain(conjugate)
-_NO_LIMIT = 1e300  # m/s and rad/s
 
 
 class PybulletPeer(Peer):
@@ -68,17 +71,18 @@ class PybulletPeer(Peer):
 
         super().__init__(engine, scene, dt, settings)
         self.forces = Forces(scene, scene.springs, scene.drags)
-        self._check_spin()
         self.p, self.client = pybullet, pybullet.connect(pybullet.DIRECT)
         self._disconnect = weakref.finalize(self, _disconnect, pybullet, self.client)
         try:
-            self._build(settings["body"] == "rigid", settings["iterations"], settings["erp"])
+            self._build(settings["body"] == "rigid")
         except BaseException:
             self.close()
             raise
 
-    def _check_spin(self):
-        for i in self.moving:  # joints of a tree have no such limit, but a body between them is as fast
+    def _check_spin(self, trees):
+        """What turns by more than π/4 a step from the start; a tree's Hinges have no such limit."""
+        balls = [b.body for _, branches in trees for b in branches if isinstance(b.joint, BallJoint)]
+        for i in [base for base, _ in trees if base is not None] + balls:
             turn = np.linalg.norm(self.scene.bodies[i].angular_velocity) * self.dt / self.substeps
             if turn > math.pi / 4:
                 raise Unsupported(
@@ -86,11 +90,14 @@ class PybulletPeer(Peer):
                     f"dt must be at most {self.dt * math.pi / 4 / turn:.4g} s"
                 )
 
-    def _build(self, rigid, iterations, erp):
+    def _build(self, rigid):
         p, c = self.p, self.client
         self.places, self.sprung = {}, []  # sprung: (number, link, joint) of the trees' springs
         found, left = ([(i, []) for i in self.moving], self.scene.joints) if rigid else trees(self.scene)
-        made = [(self._tree(base, branches, rigid), branches) for base, branches in found]
+        self._check_spin(found)
+        for tree in found:
+            check_size(*tree)
+        made = [(add_tree(p, c, self.scene, tree, rigid, self.places), tree[1]) for tree in found]
         p.stepSimulation(physicsClientId=c)  # brings a rigid body's inertia in the world up to date
         constrainer = Constrainer(p, c, self.scene, self.places, rigid)
         for joint in left:
@@ -107,48 +114,13 @@ class PybulletPeer(Peer):
         p.setPhysicsEngineParameter(
             fixedTimeStep=self.dt / self.calls,
             numSubSteps=0 if self.calls == self.substeps else self.substeps,
-            numSolverIterations=iterations,
-            erp=erp,
+            numSolverIterations=self.settings["iterations"],
+            solverResidualThreshold=self.settings["residual"],
+            erp=self.settings["erp"],
             physicsClientId=c,
         )
         p.setGravity(*self.scene.gravity.tolist(), physicsClientId=c)
         self._check_velocities()
-
-    def _tree(self, base, branches, rigid):
-        """The engine's number of a base (None: one that stands in the world) with what hangs on it."""
-        p, c = self.p, self.client
-        bodies = [i for i in (base, *(branch.body for branch in branches)) if i is not None]
-        moments, axes = {}, {}
-        for i in bodies:
-            body = self.scene.bodies[i]
-            inertia = np.eye(3) if isinstance(body.shape, Point) else body.inertia
-            moments[i], q = principal_axes(inertia)
-            axes[i] = tuple(q.tolist())
-        if base is None:
-            place, q = np.zeros(3), np.array([1.0, 0, 0, 0])
-        else:
-            place = self.scene.bodies[base].position
-            q = np.array(_multiply(self.scene.bodies[base].orientation.tolist(), axes[base]))
-        w, x, y, z = q.tolist()
-        number = p.createMultiBody(
-            baseMass=0 if base is None else self.scene.bodies[base].mass,
-            basePosition=place.tolist(),
-            baseOrientation=(x, y, z, w),
-            useMaximalCoordinates=rigid,
-            physicsClientId=c,
-            **(link_arguments(p, self.scene, (place, q), branches, axes) if branches else {}),
-        )
-        for link, i in enumerate(bodies, start=0 if base is None else -1):
-            self.places[i] = Place(number, link, axes[i])
-            moment = {"mass": self.scene.bodies[i].mass, "localInertiaDiagonal": moments[i].tolist()}
-            p.changeDynamics(number, link, **moment, physicsClientId=c)
-            p.changeDynamics(number, link, linearDamping=0, angularDamping=0, physicsClientId=c)
-            p.changeDynamics(number, link, jointDamping=0, physicsClientId=c)
-        awake = p.ACTIVATION_STATE_DISABLE_SLEEPING
-        p.changeDynamics(number, -1, activationState=awake, physicsClientId=c)
-        if not rigid:
-            p.changeDynamics(number, -1, maxJointVelocity=_NO_LIMIT, physicsClientId=c)
-        return number
 
     def _check_velocities(self):
         """A tree's bodies can only start as its joints move them."""
@@ -223,6 +195,7 @@ PYBULLET = Engine(
     {
         "substeps": (1, 1),
         "iterations": (50, 1),
+        "residual": (1e-7, Between(0.0, 1.0)),
         "erp": (0.2, Between(0.0, 1.0)),
         "body": ("multibody", ("multibody", "rigid")),
     },

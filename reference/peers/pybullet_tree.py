@@ -17,6 +17,10 @@ of the child, is the world's there. ``getLinkStates`` gives the velocity of the 
 step before unless told to compute it and the kinematics anew. Whatever order links are given in, the engine
 numbers them depth first, so that is the order here.
 
+**Limits.** 127 links and 128 coordinates: 1 for a Hinge or Slider, 4 for a BallJoint, 7 for a base that
+moves. Past that the engine reads and writes where nothing is, without a word. So a chain of balls has 32
+links at most. A BallJoint turns by π/4 in a step at most, as a free body does; a Hinge by any angle.
+
 **Springs and motors.** A spring is a torque −stiffness q − damping q̇ (or force), given anew before each step;
 a motor is the engine's own, bounded by max_force; limits are the engine's own too, hit without a bounce.
 
@@ -27,81 +31,73 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..inertia import principal_axes
 from ..joints import BallJoint, Fixed, Hinge, Slider
 from ..rotation import conjugate, multiply, over_arrays, rotate
 from ..scene import Unsupported
+from ..shapes import Point
 
-BOUNDLESS = 1e30  # N or N m
-
-
-class Branch(NamedTuple):
-    """A body and the joint by which it hangs on its parent (None: on the base that stands in the world)."""
-
-    body: int
-    joint: object
-    parent: int | None
+LINKS, COORDINATES = 127, 128  # at most, in a tree
+BOUNDLESS, NO_LIMIT = 1e30, 1e300  # N or N m; m/s and rad/s
 
 
-def trees(scene):
-    """The scene's trees as (base's number or None, list of Branch, parents first), and the joints left over.
+def check_size(base, branches):
+    """Raises Unsupported where a tree is more than the engine holds."""
+    free = {Hinge: 1, Slider: 1, BallJoint: 4}
+    coordinates = sum(free.get(type(branch.joint), 0) for branch in branches) + 7 * (base is not None)
+    if len(branches) > LINKS or coordinates > COORDINATES:
+        raise Unsupported(
+            f"pybullet's trees hold up to {LINKS} links and {COORDINATES} coordinates (a BallJoint has 4, a "
+            f"base that moves 7), but this one has {len(branches)} and {coordinates}: body='rigid' has no "
+            "such limit"
+        )
 
-    A joint is left over where it closes a loop.
+
+class Place(NamedTuple):
+    """Where a body is in the engine: the number of its multibody and the link, −1 for the base.
+
+    axes: the quaternion principal axes (the engine's frame) → the body's frame.
     """
-    joints_of = {i: [] for i, body in enumerate(scene.bodies) if not body.static}
-    held = []  # branches on the world, or on what is static
-    for joint in scene.joints:
-        for i, other in (joint.ends, joint.ends[::-1]):
-            if i in joints_of:
-                joints_of[i].append(joint)
-                if other not in joints_of:
-                    held.append(Branch(i, joint, None))
-    found, reached = [], set()
-    for first in joints_of:
-        if first not in reached:
-            members = _members(first, joints_of)
-            roots = [branch for branch in held if branch.body in members]
-            base = None if roots else first
-            reached.add(base)
-            found.append((base, _grown(roots or _branches_from(first, joints_of), joints_of, reached)))
-    used = {id(branch.joint) for _, branches in found for branch in branches}
-    return found, [joint for joint in scene.joints if id(joint) not in used]
+
+    number: int
+    link: int
+    axes: tuple
 
 
-def _members(first, joints_of):
-    """The moving bodies that are joined to ``first``, directly or not."""
-    members, queue = {first}, [first]
-    for i in queue:
-        new = [b.body for b in _branches_from(i, joints_of) if b.body not in members]
-        members.update(new)
-        queue += new
-    return members
+def add_tree(p, client, scene, tree, rigid, places):
+    """Make a tree (base, branches), or a single body, in the engine, at rest; returns its number.
 
-
-def _branches_from(i, joints_of):
-    return [
-        Branch(other, joint, i)
-        for joint in joints_of[i]
-        for other in joint.ends
-        if other in joints_of and other != i
-    ]
-
-
-def _grown(branches, joints_of, reached):
-    """A tree's branches, from those at its base; ``reached`` gets the bodies.
-
-    Each body hangs on the nearest to the base; the order is the engine's: a body, then all that hangs on it.
+    ``places`` gets the Place of each of its bodies. rigid: bodies in maximal coordinates, without branches.
     """
-    queue, hanging = list(branches), {}
-    for branch in queue:
-        if branch.body not in reached:
-            reached.add(branch.body)
-            hanging.setdefault(branch.parent, []).append(branch)
-            queue += _branches_from(branch.body, joints_of)
-    ordered, stack = [], hanging[branches[0].parent][::-1] if branches else []
-    while stack:
-        ordered.append(stack.pop())
-        stack += hanging.get(ordered[-1].body, [])[::-1]
-    return ordered
+    base, branches = tree
+    bodies = [i for i in (base, *(branch.body for branch in branches)) if i is not None]
+    moments, axes = {}, {}
+    for i in bodies:
+        body = scene.bodies[i]
+        moments[i], axes[i] = principal_axes(np.eye(3) if isinstance(body.shape, Point) else body.inertia)
+    frame = np.zeros(3), np.array([1.0, 0, 0, 0])
+    if base is not None:
+        body = scene.bodies[base]
+        frame = body.position, over_arrays(multiply)(body.orientation, axes[base])
+    number = p.createMultiBody(
+        baseMass=0 if base is None else scene.bodies[base].mass,
+        basePosition=frame[0].tolist(),
+        baseOrientation=xyzw(frame[1]),
+        useMaximalCoordinates=rigid,
+        physicsClientId=client,
+        **(link_arguments(p, scene, frame, branches, axes) if branches else {}),
+    )
+    for link, i in enumerate(bodies, start=0 if base is None else -1):
+        places[i] = Place(number, link, tuple(axes[i].tolist()))
+        moment = {"mass": scene.bodies[i].mass, "localInertiaDiagonal": moments[i].tolist()}
+        p.changeDynamics(number, link, **moment, physicsClientId=client)
+        p.changeDynamics(number, link, linearDamping=0, angularDamping=0, physicsClientId=client)
+        p.changeDynamics(number, link, jointDamping=0, physicsClientId=client)
+    awake = p.ACTIVATION_STATE_DISABLE_SLEEPING
+    p.changeDynamics(number, -1, activationState=awake, physicsClientId=client)
+    if not rigid:
+        p.changeDynamics(number, -1, maxJointVelocity=NO_LIMIT, physicsClientId=client)
+    return number
 
 
 def link_arguments(p, scene, base_frame, branches, axes):
@@ -129,9 +125,9 @@ def link_arguments(p, scene, base_frame, branches, axes):
             -1,
             -1,
             turn(back(q), origin - place).tolist(),
-            _xyzw(back(q)),
+            xyzw(back(q)),
             (body.position - origin).tolist(),
-            _xyzw(product(body.orientation, np.array(axes[i]))),
+            xyzw(product(body.orientation, np.array(axes[i]))),
             numbers[parent],
             kinds[type(joint)],
             (_sign(i, joint) * _axis(joint)).tolist(),
@@ -155,7 +151,8 @@ _LINK_ARRAYS = (
 )
 
 
-def _xyzw(q):
+def xyzw(q):
+    """A quaternion (w, x, y, z) in the engine's order."""
     w, x, y, z = q.tolist()
     return x, y, z, w
 
