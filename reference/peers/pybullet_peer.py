@@ -107,7 +107,7 @@ class PybulletPeer(Peer):
                 body = self.scene.bodies[base]
                 speeds = body.velocity.tolist(), body.angular_velocity.tolist()
                 p.resetBaseVelocity(number, *speeds, physicsClientId=c)
-            sprung = set_joints(p, c, self.scene, number, branches)
+            sprung = set_joints(p, c, self.scene, number, branches, self.places)
             self.sprung += [(number, link, joint) for link, joint in sprung]
         self.in_loop = self.forces.any() or bool(self.sprung)
         self.calls = self.substeps if self.in_loop else 1  # of stepSimulation for each dt

@@ -12,8 +12,8 @@ which moves freely. What closes a loop can't be in a tree: it becomes a constrai
 
 **Traps.** Each Hinge and Slider starts with a motor that brakes it, each BallJoint with one that brakes it a
 thousand times as hard: all are switched off here. The limit on coordinates' velocities (100) is lifted. Link
-frames are laid parallel to the world's at the start, so a JOINT_SPHERICAL's velocity, which is in the frame
-of the child, is the world's there. ``getLinkStates`` gives the velocity of the centre of mass, but of the
+frames are laid parallel to the world's at the start; but a JOINT_SPHERICAL's velocity is in the frame of the
+child's principal axes. ``getLinkStates`` gives the velocity of the centre of mass, but of the
 step before unless told to compute it and the kinematics anew. Whatever order links are given in, the engine
 numbers them depth first, so that is the order here.
 
@@ -166,7 +166,7 @@ def _sign(i, joint):
     return 1.0 if joint.ends[1] == i else -1.0
 
 
-def set_joints(p, client, scene, number, branches):
+def set_joints(p, client, scene, number, branches, places):
     """Each joint's velocity at the start, its motor and its limits; the engine's own brakes switched off.
 
     Returns [(link, joint)] of those with a spring or damper, which is a force to be given at each step.
@@ -189,7 +189,9 @@ def set_joints(p, client, scene, number, branches):
                 force=[0, 0, 0],
                 physicsClientId=client,
             )
-            p.resetJointStateMultiDof(number, link, [0, 0, 0, 1], spin.tolist(), physicsClientId=client)
+            back = over_arrays(conjugate)(over_arrays(multiply)(body.orientation, np.array(places[i].axes)))
+            own = over_arrays(rotate)(back, spin).tolist()
+            p.resetJointStateMultiDof(number, link, [0, 0, 0, 1], own, physicsClientId=client)
         elif isinstance(joint, Hinge | Slider):
             rate = _sign(i, joint) * _axis(joint) @ (spin if isinstance(joint, Hinge) else speed)
             target, most = joint.motor or (0.0, 0.0)

@@ -6,7 +6,8 @@ impulses of the step before. A gap C left by the motion is closed by the speed
     −(1 − error_bias^h) / h · C,
 
 so error_bias is the share of a gap that is left after one second: 1 never mends it, 0 mends all of it in the
-next step. pymunk's own is .9⁶⁰ = .0018. There is no word for the spin that the two bodies' arms have gained
+next step. pymunk's own is .9⁶⁰ = .0018. That speed is the bodies' own and stays with them: a limit that a
+step has run past throws back. There is no word for the spin that the two bodies' arms have gained
 in between, so a joint's positions are right to order h.
 
     Hinge       PivotJoint                        spring: DampedRotarySpring   motor: SimpleMotor
