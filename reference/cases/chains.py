@@ -1,21 +1,14 @@
 """Chains: let go level, with a light or a heavy end; and hanging between two points.
 
-In absolute angles θ a planar chain has a mass matrix in closed form. Link k's centre is at Σ_j a_kj (cos θ_j,
-sin θ_j), with a_kj = ℓ for the links before it, ℓ/2 for itself (ℓ, for a point at the end of a massless
-rod). With B = aᵀ diag(m) a and D_ij = θ_i − θ_j Lagrange's equations are
-
-    (B cos D + diag I) θ̈ = −(B sin D) θ̇² − g (aᵀ m) cos θ.
-
 Slides S5, S9, S15; lectures/04_embedding.md.
 """
 
 import numpy as np
-from scipy.linalg import solve
 from scipy.optimize import brentq
 
 from .. import inputs
-from .case import GRAVITY, Case, position_error, positive
-from .integrated import Integrated
+from .case import Case, position_error, positive
+from .falling import Falling
 from .upright import Upright, bar_inertia, checked_joint, end_error
 
 LINK = 1.0  # m, of a chain's links
@@ -42,43 +35,12 @@ def chain(n=20, end_mass=1.0, dimension=2, joint="hinge", duration=2.0):
         "chain",
         plane.scene,
         duration,
-        _Falling(plane, masses, points),
+        Falling(plane, masses, None if points else bar_inertia(masses, LINK), LINK),
         end_error(n * LINK, 0.0 if points else LINK / 2),
         "relative to the length",
-        "Lagrange's equations in absolute angles, integrated by DOP853 to 1e-13",
+        "angles integrated by DOP853 to 1e-12, accelerations by the joints' pulls",
         "A heavy end on light links is a long narrow object: iterations converge slowly (S15).",
     )
-
-
-class _Falling:
-    """The Motion of a chain let go level from the origin."""
-
-    def __init__(self, plane, masses, points):
-        n = len(masses)
-        self.plane, self.points = plane, points
-        self.a = LINK * (np.tril(np.ones((n, n)), -1) + (1.0 if points else 0.5) * np.eye(n))
-        self.B = self.a.T @ (masses[:, None] * self.a)
-        self.moments = np.diag(np.zeros(n) if points else bar_inertia(masses, LINK))
-        self.pull = GRAVITY * (self.a.T @ masses)
-        self.solution = Integrated(self.rate, np.zeros(2 * n))
-
-    def rate(self, y):
-        """Of y = (θ, θ̇)."""
-        θ, ω = np.split(y, 2)
-        c, s = np.cos(θ), np.sin(θ)
-        cos = np.multiply.outer(c, c) + np.multiply.outer(s, s)
-        sin = np.multiply.outer(s, c) - np.multiply.outer(c, s)
-        force = -(self.B * sin) @ ω**2 - self.pull * c
-        return np.concatenate([ω, solve(self.B * cos + self.moments, force, assume_a="pos")])
-
-    def __call__(self, time):
-        θ, ω = np.split(self.solution(time), 2, axis=-1)
-        c, s = np.cos(θ), np.sin(θ)
-        place = np.stack([c @ self.a.T, s @ self.a.T], axis=-1)
-        velocity = np.stack([-(s * ω) @ self.a.T, (c * ω) @ self.a.T], axis=-1)
-        return self.plane.motion(
-            place, np.zeros_like(θ) if self.points else θ, velocity, np.zeros_like(ω) if self.points else ω
-        )
 
 
 def hanging_chain(n=30, length=1.5, span=1.0, dimension=2, settle=False, duration=2.0):
