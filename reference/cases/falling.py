@@ -67,11 +67,9 @@ class Falling:
     """The Motion of a chain let go level from the origin. moments: (n,) kg m², or None for points on rods."""
 
     def __init__(self, plane, masses, moments, link):
-        n = len(masses)
         self.plane, self.masses, self.moments, self.link = plane, masses, moments, link
-        own = 1.0 if moments is None else 0.5
-        self.a = link * (np.tril(np.ones((n, n)), -1) + own * np.eye(n))  # centres: a cos θ, a sin θ
-        self.solution = Integrated(self.rate, np.zeros(2 * n), TOLERANCE)
+        self.beyond = 0.0 if moments is None else link / 2  # of each link, past its centre
+        self.solution = Integrated(self.rate, np.zeros(2 * len(masses)), TOLERANCE)
 
     def rate(self, y):
         """Of y = (θ, θ̇)."""
@@ -82,7 +80,11 @@ class Falling:
 
     def __call__(self, time):
         θ, ω = np.split(self.solution(time), 2, axis=-1)
-        c, s, turning = np.cos(θ), np.sin(θ), self.moments is not None
-        place = np.stack([c @ self.a.T, s @ self.a.T], axis=-1)
-        velocity = np.stack([-(s * ω) @ self.a.T, (c * ω) @ self.a.T], axis=-1)
-        return self.plane.motion(place, turning * θ, velocity, turning * ω)
+        along = np.stack([np.cos(θ), np.sin(θ)], axis=-1)
+        across = ω[..., None] * np.stack([-np.sin(θ), np.cos(θ)], axis=-1)
+        turning = self.moments is not None
+        return self.plane.motion(self._centres(along), turning * θ, self._centres(across), turning * ω)
+
+    def _centres(self, steps):
+        """Sums of what each link adds: of its direction for places, of that one's rate for velocities."""
+        return self.link * np.cumsum(steps, axis=-2) - self.beyond * steps
