@@ -59,7 +59,7 @@ def cache_directory():
     return folder if os.access(folder, os.W_OK) else None
 
 
-def compiled(function):
+def compiled(function, inlined=True):
     """Compile a function with Numba on its first call, and cache it; without Numba, the function itself.
 
     Division by zero gives inf or nan, as NumPy does, in both forms. Functions are inlined into their callers:
@@ -72,9 +72,17 @@ def compiled(function):
     folder = cache_directory()
     before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, str(folder or "")
     try:
-        return numba.njit(function, cache=folder is not None, error_model="numpy", forceinline=True)
+        return numba.njit(function, cache=folder is not None, error_model="numpy", forceinline=inlined)
     finally:
         numba.config.CACHE_DIR = before
+
+
+def compiled_apart(function):
+    """As ``compiled``, but called, not inlined: for long loops over plain arrays, which several others call.
+
+    It keeps the callers' compiling short, and costs some 10 ns an array in each call.
+    """
+    return compiled(function, inlined=False)
 
 
 def plain(function):
@@ -103,7 +111,9 @@ def _bind_compiled(function, *functions):
     _check_unedited(source, _defined(tree, definition, source.__globals__))
     fixed = [argument.arg for argument in definition.args.args[: len(functions)]]
     del definition.args.args[: len(functions)]
-    definition.name = "_".join([source.__name__, *(plain(f).__name__ for f in functions)])
+    # Numba's cache goes by name, not by the globals: another function bound must give another name
+    bound = " ".join(f"{plain(f).__module__}.{plain(f).__name__}" for f in functions)
+    definition.name = f"{source.__name__}_{hashlib.sha256(bound.encode()).hexdigest()[:12]}"
     names = {**source.__globals__, **dict(zip(fixed, functions, strict=True))}
     return compiled(_defined(tree, definition, names, source.__code__.co_filename))
 

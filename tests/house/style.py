@@ -19,7 +19,7 @@ LAYERS = (
     ("compiled", "inputs"),
     ("rotation", "inertia", "shapes", "joints", "declared", "scene"),
     ("bodies", "layout", "forces", "integrators"),
-    ("collision", "contacts", "rows", "factored", "mechanism", "equation", "multipliers"),
+    ("collision", "contacts", "rows", "factored", "mechanism", "embedding", "equation", "multipliers", "choice"),
     ("lcp",),
     ("correction",),
     ("trajectory",),

@@ -1,0 +1,52 @@
+"""The LCP and its solvers: one problem, one measure of error, one file a method.
+
+    problem = LCP(A, b)
+    solution = gauss_seidel(problem, start=None, tolerance=1e-10, max_iterations=1000)
+    solution.solved, solution.lam, solution.reason
+
+``problem`` says what is asked, ``merit`` how wrong a λ is, ``solution`` decides whether it is one.
+
+**A method** is a file of its own with one public function, ``solver(problem, start=None, tolerance=1e-10,
+max_iterations=1000, *, …)``, which is named in ``_METHODS`` below. Its loop is a compiled kernel over flat
+arrays; around it there is only
+
+    λ, tolerance, max_iterations = checked(problem, start, tolerance, max_iterations)   # bad arguments raise
+    already = solved_already(problem, λ, tolerance)                                     # a Solution, or None
+    unsuitable(problem, λ, tolerance, "why, in a sentence")                             # a Solution
+    finish(problem, λ, iterations, code, tolerance, history=…, certificate=…, record=…) # a Solution
+
+A solver raises for bad arguments only. What goes wrong afterwards is a status with a reason, and ``finish``
+measures every λ anew, so that no kernel can call a wrong answer solved.
+
+**Row by row** (splitting, unit 07): ``iterate(kernel, problem, start, tolerance, max_iterations, options=…)``
+is the whole solver. The kernel is written once for every form of A,
+
+    kernel(follow, row, rows, change, A, terms, λ, scale, tolerance, history, *options) -> (iterations, code)
+
+For example, all of ``sor`` but its docstring:
+
+    def sor(problem, start=None, tolerance=1e-10, max_iterations=1000, *, omega=1.6, every=1):
+        options = natural_order, inputs.number("omega", omega, above=0), inputs.whole("every", every, least=1)
+        return iterate(sweeps, problem, start, tolerance, max_iterations, options=options)
+
+The first four of the kernel come from ``operators``, ``terms`` is what stands beside A, λ is start and
+answer, and history[k] is the residual (merit over ``scale``) after k iterations; the last is for ``finish``.
+A step of a simulation takes the same kernel, ``for_form(kernel, Factors)``, by ``bind``, and calls it on
+arrays of its own.
+
+**Whole vectors** (Newton and gradients, unit 08): ``problem.A @ λ`` takes every form of A; ``problem.terms``
+and ``merit.gap`` give r_i.
+
+**Pivoting** (unit 06): ``kernel(A, b, lower, upper, λ, w, …) -> (pivots, code)`` on a dense A, ``toarray()``.
+
+Slides S11–S17; lectures/06_pivoting_lcp.md, lectures/07_iterative_lcp.md.
+"""
+
+from .gauss_seidel import gauss_seidel
+from .problem import LCP, ConeProblem
+from .solution import STATUSES, Solution
+
+_METHODS = (gauss_seidel,)
+SOLVERS = {method.__name__: method for method in _METHODS}
+
+__all__ = ["LCP", "SOLVERS", "STATUSES", "ConeProblem", "Solution", *SOLVERS]

@@ -1,0 +1,92 @@
+"""What a solver leaves behind, and the only place where it is decided whether that is a solution.
+
+``finish`` measures the λ that a solver hands in from the problem itself. Whatever the solver believes, a λ
+whose residual is above the tolerance is never called solved.
+
+Slides S13, S14; lectures/06_pivoting_lcp.md.
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .. import inputs
+
+# A kernel returns one of these; their order is that of the words.
+SOLVED, RAY, INFEASIBLE, CYCLE, MAX_ITERATIONS, DIVERGED, UNSUITABLE = range(7)
+STATUSES = ("solved", "ray", "infeasible", "cycle", "max_iterations", "diverged", "unsuitable")
+_REASONS = {
+    "solved": "λ solves the problem: its residual of {residual:.2g} is within the tolerance {tolerance:.2g}.",
+    "ray": "The method ran off along a ray: going on, λ grows for ever and no complementary λ comes.",
+    "infeasible": "No λ within its bounds makes w what it must be: the problem has no solution.",
+    "cycle": "The method came back to where it had been before, and would go round for ever.",
+    "max_iterations": "All {iterations} iterations are done, and the residual is still {residual:.2g}, above "
+    "the tolerance of {tolerance:.2g}: allow more of them, or take a method that needs fewer.",
+    "diverged": "λ grows without limit or stopped being finite, after {iterations} iterations; the residual "
+    "is {residual:.2g}.",
+    "unsuitable": "This method can't treat this problem.",
+}
+_UNTRUE = (
+    "The method came to its end, but rounding has left a residual of {residual:.2g}, above the tolerance of "
+    "{tolerance:.2g}: the problem is ill-conditioned, or the tolerance too small for its numbers."
+)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What came out. ``lam`` and ``w`` (n,) are the last λ and its w = A λ + b, solved or not.
+
+    status: one of ``STATUSES``; reason: a sentence about it. iterations: sweeps, steps or pivots done.
+    residual: of this very λ. history (iterations + 1,): the residual of the start and after each iteration,
+    the last being ``residual``; methods that have no iterate on the way (pivoting) give the two ends only.
+    tolerance: what was asked for. certificate: for "ray" and "infeasible", arrays that prove it, by name.
+    record: what the method was asked to write down on its way, such as the tableaux of a pivoting method.
+    """
+
+    lam: np.ndarray
+    w: np.ndarray
+    status: str
+    reason: str
+    iterations: int
+    residual: float
+    history: np.ndarray
+    tolerance: float
+    certificate: dict | None = None
+    record: list = field(default_factory=list, repr=False)
+
+    @property
+    def solved(self):
+        """True only if residual ≤ tolerance."""
+        return self.status == "solved"
+
+
+def finish(
+    problem, λ, iterations, code, tolerance, *, reason=None, history=None, certificate=None, record=()
+):
+    """The Solution that λ (n,) is, measured afresh from the problem.
+
+    code: what the method believes, a word of ``STATUSES`` or its number. It stands unless λ says otherwise:
+    λ is "solved" if and only if its residual is at most the tolerance. reason: a sentence in place of the
+    usual one, for that status only. history (iterations + 1,): residuals, of which the last is measured anew.
+    """
+    believed = code if isinstance(code, str) else STATUSES[code]
+    inputs.choice("code", believed, STATUSES)
+    λ = np.array(λ, dtype=float)
+    w = problem.w(λ)
+    residual = problem.residual(λ, w)
+    if history is None:
+        start = problem.residual(problem.origin)
+        history = [start, residual] if iterations else [residual]
+    history = np.array(history, dtype=float)
+    history[-1] = residual
+    status, words = believed, reason or _REASONS[believed]
+    if residual <= tolerance:
+        status, certificate = "solved", None
+        words = reason if reason and believed == "solved" else _REASONS["solved"]
+    elif believed == "solved":
+        status, words = "diverged", _UNTRUE
+    if words in (_UNTRUE, *_REASONS.values()):
+        words = words.format(iterations=iterations, residual=residual, tolerance=tolerance)
+    return Solution(
+        λ, w, status, words, int(iterations), residual, history, tolerance, certificate, list(record)
+    )
