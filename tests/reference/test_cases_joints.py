@@ -1,4 +1,4 @@
-"""The exact motions of jointed cases: published numbers, invariants, and one answer derived in two ways.
+"""The exact motions of jointed cases: published numbers, invariants, an answer derived in two ways; and ours.
 
 That engines go to them as dt → 0 is in test_peers_joints.
 """
@@ -6,6 +6,7 @@ That engines go to them as dt → 0 is in test_peers_joints.
 import numpy as np
 import pytest
 
+from reference import simulate
 from reference.cases import CASES
 from reference.cases.falling import point_accelerations, rod_accelerations
 from reference.cases.integrated import Integrated
@@ -285,3 +286,56 @@ def test_bricards_angles_close_the_ring():
 def test_parameters_are_checked(name, parameters, message):
     with pytest.raises(ValueError, match=message):
         CASES[name](**parameters)
+
+
+# ---- ours, with what the scene's model chooses: rk4, and a solver
+
+OURS = [  # case, parameters, steps, tolerance: from twice to five times what was measured at these steps
+    ("pendulum", {}, 400, 4e-7),
+    ("pendulum", {"joint": "distance"}, 400, 4e-6),
+    ("double_pendulum", {}, 800, 1e-7),
+    ("double_pendulum", {"dimension": 3}, 800, 1e-7),
+    ("chain", {"n": 5, "duration": 1.0, "joint": "distance"}, 400, 1e-9),
+    ("chain", {"n": 5, "duration": 1.0, "dimension": 3, "joint": "ball"}, 400, 3e-8),
+    ("chain", {"n": 20, "duration": 1.0}, 400, 2e-10),
+    ("hanging_chain", {}, 400, 1e-13),
+    ("door", {}, 400, 2e-8),
+    ("door", {"joint": "ball"}, 400, 2e-8),
+    ("four_bar", {}, 800, 6e-5),
+    ("four_bar", {"dimension": 3}, 800, 6e-5),
+    ("slider_crank", {}, 1600, 9e-5),
+    ("slider_crank", {"dimension": 3}, 1600, 9e-5),
+    ("n_four_bars", {"duration": 2.0}, 400, 1e-6),
+    ("gimbal_gyroscope", {}, 800, 4e-4),
+    ("gimbal_gyroscope", {"precession": 0.0}, 800, 6e-4),
+]
+
+
+@pytest.mark.parametrize(
+    ("name", "parameters", "steps", "tolerance"), OURS, ids=[f"{n}-{p}" for n, p, _, _ in OURS]
+)
+def test_ours_goes_to_the_exact_motion(name, parameters, steps, tolerance):
+    case = CASES[name](**parameters)
+    run = simulate(case.scene, case.duration, case.duration / steps, record_every=steps // 40)
+    assert case.error(run) < tolerance
+    assert run.joint_error().max() < 1e-11  # it is projected to 1e-12 of the mechanism's size after each step
+
+
+def test_ours_has_order_4_on_the_double_pendulum():
+    case, steps = CASES["double_pendulum"](duration=1.0), np.array([50, 100, 200, 400])
+    runs = [simulate(case.scene, 1.0, 1.0 / n, record_every=n // 10) for n in steps]
+    assert fitted_order(1 / steps, [case.error(run) for run in runs]) == pytest.approx(4.0, abs=0.3)
+
+
+def test_a_chain_of_100_with_a_heavy_end():
+    case = CASES["chain"](n=100, end_mass=1000.0)
+    run = simulate(case.scene, 2.0, 2.0 / 400, record_every=40)
+    assert case.error(run) < 2e-8  # measured 5e-9 of the length
+    assert run.joint_error().max() < 1e-9
+    assert np.ptp(run.energy()) < 1e-3 * 1000 * 9.81 * 20  # J, of what the end gains in its fall of 20 m
+
+
+def test_a_chain_settles_on_its_catenary():
+    case = CASES["hanging_chain"](n=8, settle=True, duration=20.0)
+    run = simulate(case.scene, 20.0, 1 / 200, record_every=400)
+    assert case.error(run) < 1e-6  # what still swings after 20 s of drag
