@@ -41,7 +41,10 @@ def project(system, state):
     worst, iterations = np.inf, 0
     for iteration in range(MOST_PROJECTIONS):
         fill_rows(mechanism.rows, state, jacobian)
-        before, worst = worst, fill_position_side(mechanism.rows.kind, speed, jacobian.φ, mechanism.scale, right)
+        before, worst = (
+            worst,
+            fill_position_side(mechanism.rows.kind, speed, jacobian.φ, mechanism.scale, right),
+        )
         if iteration > 0 and (worst <= mechanism.tolerance or (worst < CLOSE and not worst < before)):
             break
         fill_mass_rows(bodies, jacobian.J, system.mass, system.inertia, jacobian.frame, B)

@@ -61,7 +61,11 @@ class Model:
             f"{self.moving} moving bodies {where}, {self.rotating} of them rotate, {self.static} static: "
             f"{self.velocities} velocities in u",
             f"simulator {self.simulator}, integrator {self.integrator}: {self.why}",
-            *([f"solver {self.solver} for the {self.rows} rows of the joints: {self.why_solver}"] if self.solver else []),
+            *(
+                [f"solver {self.solver} for the {self.rows} rows of the joints: {self.why_solver}"]
+                if self.solver
+                else []
+            ),
             f"{'term':<24}{'count':>8}{'operations':>12}",
             *(f"{term.name:<24}{term.count:>8}{term.operations:>12}" for term in self.terms),
             f"about {self.operations} operations a step",
@@ -87,8 +91,9 @@ def model(scene):
     for number, joint in enumerate(scene.joints):
         if joint.limits is not None or (joint.motor is not None and joint.motor[1] < np.inf):
             raise Unsupported(
-                f"joint {number}, a {type(joint).__name__}, has limits or a motor of limited force, which make an "
-                "LCP, and no simulator here solves one yet: leave out limits, or give the motor max_force=inf"
+                f"joint {number}, a {type(joint).__name__}, has limits or a motor of limited force, which "
+                "make an LCP, and no simulator here solves one yet; leave out limits, or give the motor "
+                "max_force=inf"
             )
     moving = [body for body in scene.bodies if not body.static]
     rotating = [body for body in moving if not isinstance(body.shape, Point)]
