@@ -15,7 +15,7 @@ A mechanism in a vertical plane is run by both engines: pymunk has it in the pla
 ``links`` is another kind of study: what a step costs as a chain grows. Under each table stands what ``model``
 leaves out, since the scene doesn't need it.
 
-Slides S4, S9, S18; lectures/02_equation_of_motion.md, lectures/04_embedding.md.
+Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
 
 import argparse

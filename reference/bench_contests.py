@@ -1,6 +1,6 @@
 """The contests of ``bench``: cases with a known answer, on which our methods meet the engines.
 
-Slides S4, S9, S18; lectures/02_equation_of_motion.md, lectures/04_embedding.md.
+Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
 
 import gc

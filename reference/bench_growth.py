@@ -1,6 +1,6 @@
 """What a step costs as a scene grows: the other half of speed, beside error.
 
-Slides S9, S18; lectures/02_equation_of_motion.md, lectures/04_embedding.md.
+Slides S9, S18; lectures/02_equation_of_motion.md.
 """
 
 from dataclasses import dataclass

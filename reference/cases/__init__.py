@@ -2,7 +2,7 @@
 
 Each entry is a function of the case's parameters, all with defaults, that returns a Case.
 
-Slides S4, S9, S18; lectures/02_equation_of_motion.md, lectures/04_embedding.md.
+Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
 
 from .bricard import bricard

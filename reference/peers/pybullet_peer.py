@@ -40,7 +40,7 @@ public source (btMultiBody, read) has the explicit term and that damping. The te
 bodies. Where they are constraints, the engine's sweeps end after ``iterations``, or before that once a sweep
 changes little (``residual``; 0: never).
 
-Slides S4, S5, S9, S18; lectures/02_equation_of_motion.md, lectures/04_embedding.md.
+Slides S4, S5, S9, S18; lectures/02_equation_of_motion.md.
 """
 
 import math
