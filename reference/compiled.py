@@ -62,12 +62,13 @@ def cache_directory():
 def compiled(function=None, *, inline=True):
     """Compile a function with Numba on its first call, and cache it; without Numba, the function itself.
 
-    Division by zero gives inf or nan, as NumPy does, in both forms. Functions are inlined into their callers:
-    without that, passing a tuple of arrays costs more than the physics, since Numba counts the references to
-    each array. For the same reason kernels don't index a tuple by a variable: that could raise, and on the
-    path of an exception the counting can't be optimised away (measured: 27 ns a step became 870).
-    ``@compiled(inline=False)`` is for large functions called from several places, which would be compiled at each
-    of them: a call costs them nothing that counts, and compiling becomes several times quicker.
+    Division by zero gives inf or nan, as NumPy does, in both forms. Functions are inlined into their
+    callers: without that, passing a tuple of arrays costs more than the physics, since Numba counts the
+    references to each array. For the same reason kernels don't index a tuple by a variable: that could
+    raise, and on the path of an exception the counting can't be optimised away (measured: 27 ns a step
+    became 870). ``@compiled(inline=False)`` is for large functions called from several places, which would
+    be compiled at each of them: a call costs them nothing that counts, and compiling becomes several times
+    quicker.
     """
     if function is None:
         return functools.partial(compiled, inline=inline)

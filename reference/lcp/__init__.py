@@ -42,11 +42,23 @@ and ``merit.gap`` give r_i.
 Slides S11–S17; lectures/06_pivoting_lcp.md, lectures/07_iterative_lcp.md.
 """
 
+from .apgd import apgd
+from .cone_apgd import cone_apgd
+from .cone_gauss_seidel import cone_gauss_seidel
+from .cone_newton import cone_newton
+from .fischer import fischer_newton
 from .gauss_seidel import gauss_seidel
+from .interior_point import interior_point
+from .min_map import min_map_newton
+from .nncg import nncg
 from .problem import LCP, ConeProblem
 from .solution import STATUSES, Solution
 
-_METHODS = (gauss_seidel,)
+_METHODS = (
+    gauss_seidel,
+    *(min_map_newton, fischer_newton, interior_point, nncg, apgd),
+    *(cone_gauss_seidel, cone_apgd, cone_newton),
+)
 SOLVERS = {method.__name__: method for method in _METHODS}
 
 __all__ = ["LCP", "SOLVERS", "STATUSES", "ConeProblem", "Solution", *SOLVERS]

@@ -33,9 +33,7 @@ _DOUBLINGS = 60
 
 
 @compiled
-def accelerate(
-    follow, row, rows, change, project, measure, renew, A, terms, λ, scale, tolerance, history, d
-):
+def accelerate(follow, row, rows, change, project, measure, renew, A, terms, λ, scale, tolerance, history, d):
     """Iterate until the residual is at most the tolerance; returns (iterations, code).
 
     The first four are those of ``operators``; project(terms, λ), measure(terms, λ, w) and

@@ -1,14 +1,14 @@
 """Accelerated projected gradients on friction cones, and De Saxcé's change of variable for Coulomb's law.
 
-With the convex law (CCP) the contact problem asks for the smallest ½ λᵀAλ + bᵀλ over the product of all cones,
-and ``apgd`` serves with the projection on the cones in place of the clip. Coulomb's law (NCP) is no minimum of
-anything. But it is the convex law for w + shift, with a shift of μ‖w_t‖ added to each w_n (De Saxcé & Feng). So
-hold the shift, solve the convex problem a good part of the way, renew the shift from the w_t found, and go on: a
-fixed point in the shift alone.
+With the convex law (CCP) the contact problem asks for the smallest ½ λᵀAλ + bᵀλ over the product of all
+cones, and ``apgd`` serves with the projection on the cones in place of the clip. Coulomb's law (NCP) is no
+minimum of anything. But it is the convex law for w + shift, with a shift of μ‖w_t‖ added to each w_n (De
+Saxcé & Feng). So hold the shift, solve the convex problem a good part of the way, renew the shift from the
+w_t found, and go on: a fixed point in the shift alone.
 
-Slides S10, S14; lectures/08_newton_lcp.md. Source: Mazhar, Heyn, Negrut & Tasora, ACM TOG 34 (2015) 32, for APGD
-on cones; De Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225; Acary, Cadoux, Lemaréchal & Malick, ZAMM 91 (2011)
-155, for the fixed point.
+Slides S10, S14; lectures/08_newton_lcp.md. Source: Mazhar, Heyn, Negrut & Tasora, ACM TOG 34 (2015) 32, for
+APGD on cones; De Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225; Acary, Cadoux, Lemaréchal & Malick,
+ZAMM 91 (2011) 155, for the fixed point.
 """
 
 import numpy as np
@@ -60,10 +60,10 @@ def renew_shift(terms, λ, w, shift):
 def cone_apgd(problem, start=None, tolerance=1e-10, max_iterations=1000):
     """Solve a ConeProblem by accelerated projected gradients: A dense, sparse or factored.
 
-    start (n,): λ to begin with, projected on the cones first; None: 0. law "ccp": the convex problem; "ncp": with
-    De Saxcé's fixed point around it. Needs a symmetric A, positive on the diagonal; semidefinite will do
-    (redundant contacts). One iteration is a product A λ, sometimes more. Returns a ``Solution``.
-    Raises ValueError or TypeError for bad arguments.
+    start (n,): λ to begin with, projected on the cones first; None: 0. law "ccp": the convex problem;
+    "ncp": with De Saxcé's fixed point around it. Needs a symmetric A, positive on the diagonal;
+    semidefinite will do (redundant contacts). One iteration is a product A λ, sometimes more. Returns a
+    ``Solution``. Raises ValueError or TypeError for bad arguments.
     """
     functions = project_all, cone_merit, renew_shift
     return iterate(

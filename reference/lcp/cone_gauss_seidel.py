@@ -1,9 +1,10 @@
 """Gauss–Seidel over contacts: each in turn is solved exactly, with what the others do now.
 
-As Gauss–Seidel, but a block (n, t1, t2) at a time: the friction cone is taken whole, so friction is the same in
-all directions, and the contact by itself is solved by ``one_contact``, which can't fail for a positive block. So
-a lone contact takes one sweep. For the convex law each block lowers the energy, and the sweeps converge wherever a
-solution exists; for Coulomb's law that is what one sees, though nobody has proved it.
+As Gauss–Seidel, but a block (n, t1, t2) at a time: the friction cone is taken whole, so friction is the
+same in all directions, and the contact by itself is solved by ``one_contact``, which can't fail for a
+positive block. So a lone contact takes one sweep. For the convex law each block lowers the energy, and the
+sweeps converge wherever a solution exists; for Coulomb's law that is what one sees, though nobody has
+proved it.
 
 Slides S14, S16, S17; lectures/08_newton_lcp.md. Source: Jourdan, Alart & Jean, CMAME 155 (1998) 31; Daviet,
 Bertails-Descoubes & Boissieux, ACM TOG 30 (2011) 139, for an exact local solver.
@@ -26,8 +27,8 @@ _BLOWN_UP = 1e12  # times what the residual was at first
 def cone_sweeps(follow, row, rows, change, A, terms, λ, scale, tolerance, history, block):
     """Sweep over the blocks until the residual is at most the tolerance; returns (sweeps, code).
 
-    The arguments are those of ``gauss_seidel.sweeps``; block (m, 3, 3): A's diagonal blocks. history[k] is the
-    residual before sweep k.
+    The arguments are those of ``gauss_seidel.sweeps``; block (m, 3, 3): A's diagonal blocks. history[k] is
+    the residual before sweep k.
     """
     x, size, w, q = follow(A, λ), terms.size, np.zeros(3), np.zeros(3)
     λ_old, x_old = λ.copy(), x.copy()

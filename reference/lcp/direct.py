@@ -66,7 +66,7 @@ def _least_squares(H, r):
 
 
 def factored_solve(H):
-    """The function r → x of H x = r, with H (n, n) dense or sparse factored once; a singular H as in ``solve``."""
+    """The function r → x of H x = r: H (n, n), dense or sparse, factored once; if singular, as ``solve``."""
     direct = _factor(H)
 
     def apply(r):

@@ -3,9 +3,9 @@
     φ(a, b) = a + b − √(a² + b²) = 0    if and only if    a ≥ 0, b ≥ 0, a b = 0
 
 With a = λ_i − lower_i and b = w_i/d_i the LCP is φ = 0, row by row; with two bounds φ is nested as the clip
-is: φ(λ − lower, −φ(upper − λ, −w/d)). φ has a kink at (0, 0) only, and ψ = ½ ‖φ‖² none at all: it has a gradient
-everywhere, so that the line search always has a way down until the gradient is 0. For P₀-matrices that is a
-solution. The price: each system has all n rows.
+is: φ(λ − lower, −φ(upper − λ, −w/d)). φ has a kink at (0, 0) only, and ψ = ½ ‖φ‖² none at all: it has a
+gradient everywhere, so that the line search always has a way down until the gradient is 0. For P₀-matrices
+that is a solution. The price: each system has all n rows.
 
     (D_λ + D_w A/d) Δ = −φ,    D_λ = ∂φ/∂λ,  D_w = ∂φ/∂(w/d)
 
@@ -26,13 +26,16 @@ from .min_map import STANDS
 from .problem import LCP
 from .solution import CYCLE, DIVERGED, MAX_ITERATIONS, SOLVED, finish
 
+_LONG = 50  # iterations in which the residual should go down by a hundredth at least
+
 
 def fischer_newton(problem, start=None, tolerance=1e-10, max_iterations=1000):
     """Solve an LCP by Newton's method on φ = 0: bounds, friction bounds, A of any form.
 
-    start (n,): λ to begin with; None: λ⁰. One iteration is a linear system of all n rows, direct (a factored A
-    is formed), and a line search. Where ψ has a minimum that is no solution, λ stands still there, which is
-    told (``cycle``). Returns a ``Solution``. Raises ValueError or TypeError for bad arguments.
+    start (n,): λ to begin with; None: λ⁰. One iteration is a linear system of all n rows, direct (a
+    factored A is formed), and a line search. Where ψ has a minimum that is no solution, λ stands still
+    there, which is told (``cycle``). Returns a ``Solution``. Raises ValueError or TypeError for bad
+    arguments.
     """
     λ, tolerance, most = checked(problem, start, tolerance, max_iterations)
     already = solved_already(problem, λ, tolerance)
@@ -56,7 +59,8 @@ def _iterate(problem, λ, tolerance, most):
         φ, D_λ, D_w, D_n = fischer(problem, λ)
         H = jacobian(problem, A, D_λ, D_w, D_n)
         there = descend(lambda x: fischer(problem, x)[0], λ, φ, solve(H, -φ), H.T @ φ)
-        if there is None:
+        slow = k >= _LONG and history[-1] > 0.99 * history[-_LONG] and history[-1] > 1e-3
+        if there is None or slow:
             return λ, history, CYCLE, STANDS.format(residual=history[-1])
         λ = there
     return λ, history, MAX_ITERATIONS, None

@@ -4,14 +4,14 @@ Each bound gets a z > 0 beside its distance s > 0, and the corner s z = 0 become
 
     A λ + b = z_l − z_h,    (λ − lower) z_l = σμ,    (upper − λ) z_h = σμ,    everything positive
 
-As μ → 0 the solutions of these smooth equations, the central path, lead to that of the LCP. A Newton step on them
-comes down to one linear system of all rows,
+As μ → 0 the solutions of these smooth equations, the central path, lead to that of the LCP. A Newton step
+on them comes down to one linear system of all rows,
 
     (A + z_l/s_l + z_h/s_h) Δλ = …
 
-and stops short of the nearest bound. It is solved twice with one factor (Mehrotra): a trial with σ = 0 tells how
-much μ can fall, hence σ, and what the products Δs Δz will spoil. For positive semidefinite A, symmetric or not,
-singular or not, 10 to 30 iterations do, whatever n: no set of rows has to be guessed.
+and stops short of the nearest bound. It is solved twice with one factor (Mehrotra): a trial with σ = 0
+tells how much μ can fall, hence σ, and what the products Δs Δz will spoil. For positive semidefinite A,
+symmetric or not, singular or not, 10 to 30 iterations do, whatever n: no set of rows has to be guessed.
 
 Slides S14; lectures/08_newton_lcp.md. Source: Kojima, Megiddo, Noma & Yoshise, A Unified Approach to Interior
 Point Algorithms for LCPs (1991); Mehrotra, SIAM J. Optim. 2 (1992) 575; Wright, Primal-Dual Interior-Point

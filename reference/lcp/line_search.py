@@ -1,8 +1,8 @@
 """Globalisation: how far to go along a Newton step, so that it leads somewhere from far away, too.
 
 Newton's method knows the equation near λ only. ψ = ½ ‖r‖², which is 0 just at a solution, judges its step:
-take t = 1, ½, ¼, … until ψ has gone down by a share of what its slope promises (Armijo). Where r has kinks the
-step may not lead down at all; then try steepest descent, −Hᵀr; where that fails too, λ stands still.
+take t = 1, ½, ¼, … until ψ has gone down by a share of what its slope promises (Armijo). Where r has kinks
+the step may not lead down at all; then try steepest descent, −Hᵀr; where that fails too, λ stands still.
 
 Slides S14; lectures/08_newton_lcp.md. Source: Armijo, Pacific J. Math. 16 (1966) 1; De Luca, Facchinei &
 Kanzow, Math. Programming 75 (1996) 407.
@@ -38,7 +38,7 @@ def search(residuals, λ, r, step, slope):
 
 
 def descend(residuals, λ, r, step, gradient):
-    """The next λ: along Newton's step, or against ψ's gradient Hᵀr (n,); None where ψ goes down on neither."""
+    """The next λ: along Newton's step, or against ψ's gradient Hᵀr (n,); None where both lead up."""
     there = search(residuals, λ, r, step, float(gradient @ step))
     if there is None:
         size = float(gradient @ gradient)

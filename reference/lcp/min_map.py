@@ -3,7 +3,8 @@
 The LCP is the equation r(λ) = 0 with r_i = λ_i − clip(λ_i − w_i/d_i, lower_i, upper_i), of which every row is
 one of three straight pieces (without bounds above it is min(λ_i, w_i/d_i)):
 
-    free: r_i = w_i/d_i          at the lower bound: r_i = λ_i − lower_i          at the upper: r_i = λ_i − upper_i
+    free: r_i = w_i/d_i          at the lower bound: r_i = λ_i − lower_i          at the upper: r_i = λ_i −
+    upper_i
 
 Newton's step for these pieces puts the rows at a bound there, and solves A_FF Δ_F = −w_F − A_FB Δ_B for the
 free ones: one linear system, as small as the free set. S11's "fix it at its limit and solve for the others"
@@ -43,10 +44,10 @@ STANDS = (
 def min_map_newton(problem, start=None, tolerance=1e-10, max_iterations=1000, *, line_search=True):
     """Solve an LCP by Newton's method on the minimum map: bounds, friction bounds, A of any form.
 
-    start (n,): λ to begin with; None: λ⁰. One iteration is a linear system of the free rows, direct (a factored
-    A is formed). line_search: False: full steps only, and ``cycle`` as soon as pieces come back. For P-matrices
-    and contact problems; on others it may stand still, which is told (``cycle``). Returns a ``Solution``.
-    Raises ValueError or TypeError for bad arguments.
+    start (n,): λ to begin with; None: λ⁰. One iteration is a linear system of the free rows (a
+    factored A is formed). line_search: False: full steps only, and ``cycle`` as soon as pieces come back.
+    For P-matrices and contact problems; on others it may stand still, which is told (``cycle``). Returns a
+    ``Solution``. Raises ValueError or TypeError for bad arguments.
     """
     λ, tolerance, most = checked(problem, start, tolerance, max_iterations)
     already = solved_already(problem, λ, tolerance)

@@ -1,7 +1,7 @@
 """Nonlinear conjugate gradients over projected Gauss–Seidel.
 
-A sweep takes λ to λ*, and −(λ* − λ) serves as a gradient: it is 0 just where λ solves the problem. Fletcher and
-Reeves' rule then makes a direction of all steps so far, and each sweep is followed by a step along it:
+A sweep takes λ to λ*, and −(λ* − λ) serves as a gradient: it is 0 just where λ solves the problem. Fletcher
+and Reeves' rule then makes a direction of all steps so far, and each sweep is followed by a step along it:
 
     Δ = λ* − λ,    β = ‖Δ‖² / ‖Δ of the sweep before‖²,    λ ← λ* + β p,    p ← β p + Δ
 

@@ -6,19 +6,21 @@ There are three cases, and the first that fits is the answer (A symmetric, posit
     sticks    λ = −A⁻¹ q         where that is within the cone; w = 0
     slides    λ on the cone, w_t = −α λ_t with an α > 0, and w_n = 0 (Coulomb) or μ‖w_t‖ = α μ² λ_n (convex)
 
-For a given α the last is a linear system, (A + α diag(−κ, 1, 1)) λ = −q with κ = 0 (Coulomb) or μ² (convex), and
+For a given α the last is a linear system, (A + α diag(−κ, 1, 1)) λ = −q with κ = 0 (Coulomb) or μ²
+(convex), and
 
     G(α) = ‖λ_t‖ − μ λ_n = 0
 
-is a quartic in α. It needn't be written out: its root lies between bounds at whose ends G has two signs, so that
-bisection can't fail. For Coulomb's law these are 0 and ∞. There λ_t = 0 and λ_n = −q_n/A_nn > 0, so G < 0; at 0,
-where it would stick, λ is outside the cone, so G > 0. For the convex law the matrix is singular at one α₀; the
-root lies below α₀ if λ comes up to it from within the cone, else above.
+is a quartic in α. It needn't be written out: its root lies between bounds at whose ends G has two signs, so
+that bisection can't fail. For Coulomb's law these are 0 and ∞. There λ_t = 0 and λ_n = −q_n/A_nn > 0, so G
+< 0; at 0, where it would stick, λ is outside the cone, so G > 0. For the convex law the matrix is singular
+at one α₀; the root lies below α₀ if λ comes up to it from within the cone, else above.
 
 In the plane the second tangent is given a row of its own, which stays 0.
 
-Slides S10, S14; lectures/08_newton_lcp.md. Source: Bonnefon & Daviet, Quartic formulation of Coulomb 3D frictional
-contact, INRIA RT-0400 (2011), for the quartic; Daviet, Bertails-Descoubes & Boissieux, ACM TOG 30 (2011) 139.
+Slides S10, S14; lectures/08_newton_lcp.md. Source: Bonnefon & Daviet, Quartic formulation of Coulomb 3D
+frictional contact, INRIA RT-0400 (2011), for the quartic; Daviet, Bertails-Descoubes & Boissieux, ACM TOG
+30 (2011) 139.
 """
 
 import numpy as np
@@ -69,8 +71,8 @@ def principal(a, b, d):
 def surface(α, block):
     """G, Schur's complement, and λ of the linear system for α, all but the second times that complement.
 
-    G's sign is that of ‖λ_t‖ − μ λ_n where the complement is positive, and of ‖λ_t‖ + μ λ_n where not: so it does
-    not jump where λ passes through infinity.
+    G's sign is that of ‖λ_t‖ − μ λ_n where the complement is positive, and of ‖λ_t‖ + μ λ_n where not: so
+    it does not jump where λ passes through infinity.
     """
     A_nn, a_1, a_2, s_1, s_2, q_n, p_1, p_2, μ, κ = block
     x_1, x_2 = 1 / (s_1 + α), 1 / (s_2 + α)
@@ -83,8 +85,7 @@ def surface(α, block):
 @compiled
 def find_slip(block):
     """The α > 0 at which λ lies on the cone: G > 0 at one end, < 0 at the other, and bisection between."""
-    A_nn, a_1, a_2, s_1, s_2, q_n, p_1, p_2, μ, κ = block
-    outside, inside = 0.0, 1.0
+    s_1, κ, outside, inside = block[3], block[9], 0.0, 1.0
     if κ > 0:
         inside = singular(block)
         _, _, n, _, _ = surface(inside, block)
