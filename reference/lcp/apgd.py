@@ -40,7 +40,7 @@ def accelerate(follow, row, rows, change, project, measure, renew, A, terms, λ,
     renew(terms, λ, w, shift) those of the set that λ must keep to. d (n,): a weight for each row. λ (n,) is
     start and answer.
     """
-    w, shift = np.empty_like(λ), np.zeros_like(λ)
+    w, shift = λ.copy(), 0 * λ
     project(terms, λ)
     product(follow, row, A, λ, w)
     w += terms.b

@@ -30,7 +30,7 @@ def cone_sweeps(follow, row, rows, change, A, terms, λ, scale, tolerance, histo
     The arguments are those of ``gauss_seidel.sweeps``; block (m, 3, 3): A's diagonal blocks. history[k] is
     the residual before sweep k.
     """
-    x, size, w, q = follow(A, λ), terms.size, np.zeros(3), np.zeros(3)
+    x, size, w, q = follow(A, λ), terms.size, 0 * block[0, 0], 0 * block[0, 0]
     λ_old, x_old = λ.copy(), x.copy()
     for k in range(len(history) - 1):
         λ_old[:], worst = λ, 0.0

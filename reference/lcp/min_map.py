@@ -44,8 +44,8 @@ STANDS = (
 def min_map_newton(problem, start=None, tolerance=1e-10, max_iterations=1000, *, line_search=True):
     """Solve an LCP by Newton's method on the minimum map: bounds, friction bounds, A of any form.
 
-    start (n,): λ to begin with; None: λ⁰. One iteration is a linear system of the free rows (a
-    factored A is formed). line_search: False: full steps only, and ``cycle`` as soon as pieces come back.
+    start (n,): λ to begin with; None: λ⁰. One iteration is a linear system of the free rows (a factored
+    A is formed). line_search: False: full steps only, and ``cycle`` as soon as pieces come back.
     For P-matrices and contact problems; on others it may stand still, which is told (``cycle``). Returns a
     ``Solution``. Raises ValueError or TypeError for bad arguments.
     """

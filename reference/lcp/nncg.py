@@ -47,7 +47,7 @@ def conjugate_sweeps(follow, row, rows, change, A, terms, λ, scale, tolerance, 
     The arguments are those of ``gauss_seidel.sweeps``. history[k] is the residual before sweep k.
     """
     x = follow(A, λ)
-    λ_old, x_old, p, size_before = λ.copy(), x.copy(), np.zeros_like(λ), np.inf
+    λ_old, x_old, p, size_before = λ.copy(), x.copy(), 0 * λ, np.inf
     for k in range(len(history) - 1):
         λ_old[:] = λ
         x_old[:] = x
