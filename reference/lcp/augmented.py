@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 
 OPEN, STICKS, SLIDES = 0, 1, 2  # 3: slides the other way, in the plane
 
@@ -56,7 +56,7 @@ def inner(a, b):
     return total
 
 
-@compiled(inline=False)
+@compiled_apart
 def evaluate(rows, M, free, λ, ρ, shift, u, out):
     """The augmented Lagrangian at u, with λ̂, P′ and the gradient into ``out``."""
     value, k = 0.0, u.shape[1]

@@ -20,7 +20,7 @@ Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 from .augmented import ContactRows, evaluate, inner, make_pass
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
@@ -75,7 +75,7 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
     return u, max_iterations, error
 
 
-@compiled(inline=False)
+@compiled_apart
 def block_sizes(rows, M, free, size):
     """A's largest diagonal entry of each block; returns the worst |w| of the free velocities."""
     scale = 0.0

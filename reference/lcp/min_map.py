@@ -36,8 +36,8 @@ _ROUND = (
     "ever: allow the line search, or take another method."
 )
 STANDS = (
-    "Neither Newton's step nor steepest descent makes the residual smaller: λ stands still, at a kink that is "
-    "no solution, or as near as rounding lets it come; the residual is {residual:.2g}."
+    "Neither Newton's step nor steepest descent makes the residual smaller: λ stands still, at a kink that "
+    "is no solution, or as near as rounding lets it come; the residual is {residual:.2g}."
 )
 
 

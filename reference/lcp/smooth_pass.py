@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 from .augmented import OPEN, SLIDES, evaluate, inner
 from .envelope import Envelope, add_block, cholesky_in_envelope, make_envelope, solve_in_envelope
 
@@ -33,7 +33,7 @@ def make_factor(rows, n, k):
     return Factor(envelope, np.empty(envelope.start[-1]), np.full(len(rows.μ), -1))
 
 
-@compiled(inline=False)
+@compiled_apart
 def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial):
     """Newton's method for one pass, with step halving: u in place, what ``evaluate`` finds there in out."""
     value = evaluate(rows, M, free, λ, ρ, shift, u, out)
@@ -84,7 +84,7 @@ def worst_rate(M, gradient):
     return worst
 
 
-@compiled(inline=False)
+@compiled_apart
 def fill_matrix(rows, M, ρ, out, factor):
     """M + ρ Jᵀ P′ J, block by block."""
     k, envelope, L = M.shape[1], factor.envelope, factor.L
