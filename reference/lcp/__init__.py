@@ -37,8 +37,8 @@ arrays of its own.
 **Whole vectors** (Newton, unit 08): ``problem.w(λ)`` takes every form of A; what is left is one linear system
 an iteration, dense or sparse (``direct``). Gradients (``apgd``) are compiled as the sweeps are.
 
-**The exact cone** (unit 08): ``cone_gauss_seidel``, ``cone_apgd``, ``cone_newton``, for a ``ConeProblem``; a step
-takes ``cone_newton_kernel`` on arrays of its own.
+**The exact cone** (unit 08): ``cone_gauss_seidel``, ``cone_apgd``, ``cone_newton``, for a ``ConeProblem``;
+a step takes ``cone_newton_kernel`` on arrays of its own.
 
 **Pivoting** (unit 06): ``kernel(A, b, lower, upper, λ, w, …) -> (pivots, code)`` on a dense A, ``toarray()``.
 
