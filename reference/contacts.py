@@ -12,7 +12,6 @@ import numpy as np
 
 from .collision import ContactArrays
 from .compiled import compiled
-from .lcp.cone_newton import ContactRows
 from .rotation import cross, quaternion, rotate
 
 
@@ -53,33 +52,29 @@ def tangents(rows, d):
 
 @compiled
 def contact_rows(contacts, target, k):
-    """The ``ContactRows`` of these contacts, k = 3 or 6 velocities a body; w_n must be at least −target (m,), m/s."""
+    """The rows of these contacts, k = 3 or 6 velocities a body; w_n must be at least −target (m,), m/s.
+
+    Returns bodies (r, 2), J (r, 2, k), c (r,), block (m + 1,), μ (m,), lower and upper (r,): the fields of ``lcp``'s
+    ContactRows. Contact q has the rows block[q] … block[q + 1] − 1.
+    """
     m, d = contacts.point[: contacts.count[0]].shape
     block = np.zeros(m + 1, np.int64)
     for q in range(m):
         block[q + 1] = block[q] + (d if contacts.friction[q] > 0 else 1)
     n = block[m]
-    rows = ContactRows(
-        np.full((n, 2), -1),
-        np.zeros((n, 2, k)),
-        np.zeros(n),
-        block,
-        np.full(m, -1.0),
-        np.zeros(n),
-        np.full(n, np.inf),
-    )
+    bodies, J, c, μ = np.full((n, 2), -1), np.zeros((n, 2, k)), np.zeros(n), np.full(m, -1.0)
     for q in range(m):
-        rows.c[block[q]] = target[q]
+        c[block[q]] = target[q]
         if contacts.friction[q] > 0:
-            rows.μ[q] = contacts.friction[q]
+            μ[q] = contacts.friction[q]
         for a in range(block[q + 1] - block[q]):
             r = block[q] + a
             for side in range(2):
                 i = contacts.slot[q, side]
-                rows.bodies[r, side] = i
+                bodies[r, side] = i
                 if i >= 0:
-                    put_row(rows.J[r, side], contacts.frame[q, a], contacts.arm[q, side], 2.0 * side - 1.0)
-    return rows
+                    put_row(J[r, side], contacts.frame[q, a], contacts.arm[q, side], 2.0 * side - 1.0)
+    return bodies, J, c, block, μ, np.zeros(n), np.full(n, np.inf)
 
 
 @compiled

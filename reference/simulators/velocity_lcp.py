@@ -16,7 +16,7 @@ from ..compiled import bind, compiled
 from ..contacts import contact_rows, fill_masses, keys, label_islands, look_up, part, spread, tangents
 from ..forces import external_force, with_user_forces
 from ..integrators import make_work
-from ..lcp.cone_newton import cone_newton_kernel
+from ..lcp.cone_newton import ContactRows, cone_newton_kernel
 from ..trajectory import BodyState
 from .bouncing import MOST_IMPACTS, hop, strike
 from .flight import choose_velocities, gather_velocities, let_rest, move
@@ -131,7 +131,7 @@ class VelocityLCP:
 
     def rows(self, contacts, target):
         """The contacts' rows, with w_n ≥ −target."""
-        return contact_rows(contacts, target, self.k)
+        return ContactRows(*contact_rows(contacts, target, self.k))
 
     def solve(self, rows, free, λ):
         """The velocities u⁺; λ in place."""
