@@ -1,11 +1,12 @@
 """Contact points as rows of J: one along the normal and, where there is friction, one along each tangent.
 
-A row is made as a joint's is: −(e, r_i × e) for body i and (e, r_j × e) for body j, so that w = J u is how fast j leaves i
-along e. The normal row asks for w ≥ 0 and λ ≥ 0, of which one is 0; while there is still a gap it asks for w ≥ −gap/Δt, so
-that the two may just meet. A contact without friction has no tangential rows.
+A row is made as a joint's is: −(e, r_i × e) for body i and (e, r_j × e) for body j, so that w = J u is
+how fast j leaves i along e. The normal row asks for w ≥ 0 and λ ≥ 0, of which one is 0; while there is
+still a gap it asks for w ≥ −gap/Δt, so that the two may just meet. A contact without friction has no
+tangential rows.
 
-Slides S10–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673 (the gap in
-the velocity's condition: Anitescu & Potra, Nonlinear Dynamics 14 (1997) 231).
+Slides S10–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Numer. Methods Eng. 39 (1996)
+2673 (the gap in the velocity's condition: Anitescu & Potra, Nonlinear Dynamics 14 (1997) 231).
 """
 
 import numpy as np
@@ -54,8 +55,8 @@ def tangents(rows, d):
 def contact_rows(contacts, target, k):
     """The rows of these contacts, k = 3 or 6 velocities a body; w_n must be at least −target (m,), m/s.
 
-    Returns bodies (r, 2), J (r, 2, k), c (r,), block (m + 1,), μ (m,), lower and upper (r,): the fields of ``lcp``'s
-    ContactRows. Contact q has the rows block[q] … block[q + 1] − 1.
+    Returns bodies (r, 2), J (r, 2, k), c (r,), block (m + 1,), μ (m,), lower and upper (r,): the fields
+    of ``lcp``'s ContactRows. Contact q has the rows block[q] … block[q + 1] − 1.
     """
     m, d = contacts.point[: contacts.count[0]].shape
     block = np.zeros(m + 1, np.int64)
@@ -90,7 +91,9 @@ def put_row(J, e, arm, sign):
 
 @compiled
 def fill_masses(system, state, M):
-    """M (n, k, k), block by block: the mass, and R I Rᵀ in the world frame; 1 for the turning of points, which have none."""
+    """M (n, k, k), block by block: the mass, and R I Rᵀ in the world frame; 1 for the turning of points,
+    which have none.
+    """
     n, d = state.x.shape
     M[:] = 0
     for i in range(n):
@@ -119,7 +122,9 @@ def add_axis(M, I, e):
 
 @compiled
 def label_islands(bodies, n):
-    """(n,): bodies that touch, directly or through others that move, have one label, the smallest number among them."""
+    """(n,): bodies that touch, directly or through others that move, have one label, the smallest number
+    among them.
+    """
     label = np.arange(n)
     for r in range(len(bodies)):
         i, j = bodies[r, 0], bodies[r, 1]

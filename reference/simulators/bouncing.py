@@ -1,10 +1,11 @@
 """Bounces: each impact at its own time within the step, so that the energy is right whatever Δt is.
 
-A step goes from impact to impact. Where something that rebounds would meet another body before the step ends, the
-bodies fly only until they touch, the impact law changes the velocities, and the rest of the step follows.
+A step goes from impact to impact. Where something that rebounds would meet another body before the step
+ends, the bodies fly only until they touch, the impact law changes the velocities, and the rest of the
+step follows.
 
-A ball that bounces comes to rest after infinitely many bounces in a finite time. One that would last a thousandth of the step or less
-is taken for none.
+A ball that bounces comes to rest after infinitely many bounces in a finite time. One that would last a
+thousandth of the step or less is taken for none.
 
 Slides S9, S10; lectures/05_contact.md.
 """
@@ -87,14 +88,17 @@ def motion(sim, contacts):
 def least_gap(coming, now):
     """The least gap of the pairs that were coming, among the contacts now; inf where none is near."""
     pairs = {tuple(pair) for pair in coming.bodies.tolist()}
-    return min((gap for pair, gap in zip(now.bodies.tolist(), now.gap, strict=True) if tuple(pair) in pairs), default=np.inf)
+    return min(
+        (gap for pair, gap in zip(now.bodies.tolist(), now.gap, strict=True) if tuple(pair) in pairs),
+        default=np.inf,
+    )
 
 
 def root(f, begin, end, f_end, tolerance):
     """The time in (begin, end] where f goes from + to −, to |f| ≤ tolerance, by the Illinois method.
 
-    The last call of f is at the time that is returned; where f has no such change of sign that is ``end``. Source: Dowell
-    & Jarratt, BIT 11 (1971) 168.
+    The last call of f is at the time that is returned; where f has no such change of sign that is
+    ``end``. Source: Dowell & Jarratt, BIT 11 (1971) 168.
     """
     if abs(f_end) <= tolerance or f_end > 0:
         return end

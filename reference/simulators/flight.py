@@ -1,10 +1,11 @@
 """Between two impacts: with which velocity each body moves, and where it comes to rest.
 
-A step changes the velocities from u to u⁺. Bodies that move with the *mean* ½ (u + u⁺) fly as thrown stones do, exactly, and
-what slides is as exact; a step changes then the energy by just ½ λᵀ (w + w⁺), the work of the contacts. Where that would be positive (a contact that
-begins to stick within the step), or where the mean would lead into another body (it lands), the bodies move with the *end* velocity u⁺: the energy then changes by
-λᵀ w⁺ − ½ |u⁺ − u|²_M, which never is positive. All bodies of an island, which touch each other, do the same. So contact never feeds energy into a scene,
-whatever Δt is.
+A step changes the velocities from u to u⁺. Bodies that move with the *mean* ½ (u + u⁺) fly as thrown
+stones do, exactly, and what slides is as exact; a step changes then the energy by just ½ λᵀ (w + w⁺), the
+work of the contacts. Where that would be positive (a contact that begins to stick within the step), or
+where the mean would lead into another body (it lands), the bodies move with the *end* velocity u⁺: the
+energy then changes by λᵀ w⁺ − ½ |u⁺ − u|²_M, which never is positive. All bodies of an island, which
+touch each other, do the same. So contact never feeds energy into a scene, whatever Δt is.
 
 Slides S9, S12; lectures/05_contact.md.
 """
@@ -48,7 +49,8 @@ def scatter_velocities(system, u, state):
 
 @compiled
 def choose_velocities(rows, label, gap, before, after, λ, h, slack, used):
-    """Into used (n, k): with which velocity each body moves. gap (m,), m, of each contact; slack, m: a gap that counts as none.
+    """Into used (n, k): with which velocity each body moves. gap (m,), m, of each contact; slack, m: a
+    gap that counts as none.
 
     Returns whether all move with the mean.
     """

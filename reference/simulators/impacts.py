@@ -1,15 +1,18 @@
-"""Impacts: what velocities change to at the moment when bodies meet, in no time and with no force but the contacts'.
+"""Impacts: what velocities change to at the moment when bodies meet, in no time and with no force but the
+contacts'.
 
-    newton       all contacts at once: w⁺ ≥ −e w, and λ > 0 only where that is an equality        (Newton; Moreau)
-    poisson      all at once, in two phases: until nothing approaches, with impulse λ; then e λ is given back
-    sequential   one contact after the other, the fastest first, until nothing approaches: what one sees in a cradle
+    newton       all contacts at once: w⁺ ≥ −e w, and λ > 0 only where that is an equality        (Newton;
+    Moreau) poisson      all at once, in two phases: until nothing approaches, with impulse λ; then e λ is
+    given back sequential   one contact after the other, the fastest first, until nothing approaches: what
+    one sees in a cradle
 
-Newton's and Poisson's laws can raise the energy where there is friction (Kane's paradox). Where no law is asked for, Newton's is used,
-with as much of the rebound as the energy before allows.
+Newton's and Poisson's laws can raise the energy where there is friction (Kane's paradox). Where no law is
+asked for, Newton's is used, with as much of the rebound as the energy before allows.
 
-Slides S3, S10; lectures/05_contact.md. Source: Moreau, Unilateral contact and dry friction in finite freedom dynamics (1988); Glocker &
-Pfeiffer, Nonlinear Dynamics 7 (1995) 471 (Poisson's); Kane & Levinson, Dynamics: Theory and Applications (1985), section 5.8 (the
-paradox); Ivanov, J. Appl. Math. Mech. 59 (1995) 887 (sequences of impacts).
+Slides S3, S10; lectures/05_contact.md. Source: Moreau, Unilateral contact and dry friction in finite
+freedom dynamics (1988); Glocker & Pfeiffer, Nonlinear Dynamics 7 (1995) 471 (Poisson's); Kane & Levinson,
+Dynamics: Theory and Applications (1985), section 5.8 (the paradox); Ivanov, J. Appl. Math. Mech. 59
+(1995) 887 (sequences of impacts).
 """
 
 import numpy as np
@@ -37,7 +40,9 @@ def newton(rows, e, M, u, solve):
 
 
 def poisson(rows, e, M, u, solve):
-    """u⁺ and λ by Poisson's law: compression, then the normal impulses times e, and what friction then does."""
+    """u⁺ and λ by Poisson's law: compression, then the normal impulses times e, and what friction then
+    does.
+    """
     first = rows.block[:-1]
     rows.c[first] = 0.0
     compressed, λ = solve(rows, u)
@@ -48,7 +53,9 @@ def poisson(rows, e, M, u, solve):
 
 
 def sequential(rows, e, M, u, solve):
-    """u⁺ and λ by blows of single contacts, the fastest first; ties: the first row. Then all at once, for what is left."""
+    """u⁺ and λ by blows of single contacts, the fastest first; ties: the first row. Then all at once, for
+    what is left.
+    """
     first, λ = rows.block[:-1], np.zeros(len(rows.c))
     slowest = 1e-12 * np.abs(rates(rows, u)).max()
     for _ in range(MOST_BLOWS):
@@ -65,7 +72,9 @@ def sequential(rows, e, M, u, solve):
 
 
 def within_energy(rows, e, M, u, solve):
-    """u⁺ and λ by Newton's law, but with no more energy than before: what is too much is taken from the rebound."""
+    """u⁺ and λ by Newton's law, but with no more energy than before: what is too much is taken from the
+    rebound.
+    """
     after, λ = newton(rows, e, M, u, solve)
     most = kinetic(M, u)
     if kinetic(M, after) <= most * (1 + 1e-15):

@@ -1,10 +1,11 @@
 """What went into each other is lifted apart, by the smallest move that does it (S13).
 
-Smallest in the measure of the kinetic energy: δ with ½ |δ|²_M least and gap + J δ ≥ 0 for all contacts near, again and
-again until none is deep. Lifting adds potential energy, which is taken from the speed of the same bodies, as far as they
-have any. What is left is counted: it is the energy that lifting out an overlap adds.
+Smallest in the measure of the kinetic energy: δ with ½ |δ|²_M least and gap + J δ ≥ 0 for all contacts
+near, again and again until none is deep. Lifting adds potential energy, which is taken from the speed of
+the same bodies, as far as they have any. What is left is counted: it is the energy that lifting out an
+overlap adds.
 
-Slides S13; lectures/09_error_correction.md.
+Slides S12, S13; lectures/05_contact.md.
 """
 
 import numpy as np
@@ -19,7 +20,9 @@ MOST_LIFTS = 20
 
 
 def lift(sim, contacts, h):
-    """Bring apart what is deeper in each other than rounding explains. Returns the contacts that there are then."""
+    """Bring apart what is deeper in each other than rounding explains. Returns the contacts that there
+    are then.
+    """
     if contacts.gap.min(initial=0.0) >= -DEEP * sim.closed:
         return contacts
     label, height = np.arange(len(sim.before)), sim.state.x.copy()
@@ -43,7 +46,9 @@ def lift(sim, contacts, h):
 
 @compiled
 def pay(label, gain, M, u):
-    """Slow each island's bodies until they have lost the energy that lifting gave; returns what could not be paid, J."""
+    """Slow each island's bodies until they have lost the energy that lifting gave; returns what could not
+    be paid, J.
+    """
     n, k = u.shape
     gained, has = np.zeros(n), np.zeros(n)
     for i in range(n):

@@ -69,7 +69,11 @@ class Model:
             f"{'term':<24}{'count':>8}{'operations':>12}",
             *(f"{term.name:<24}{term.count:>8}{term.operations:>12}" for term in self.terms),
             f"about {self.operations} operations a step"
-            + (", and what the contacts cost, which depends on how many there are" if not self.integrator else ""),
+            + (
+                ", and what the contacts cost, which depends on how many there are"
+                if not self.integrator
+                else ""
+            ),
             f"not built: {', '.join(self.absent)}",
         ]
         return "\n".join(lines)

@@ -30,10 +30,11 @@ class Settings:
     """The settings of a run; None: chosen by what the scene needs.
 
     simulator: a family of S3: "smooth", where nothing can touch, else "velocity_lcp". integrator: a name in
-    ``INTEGRATORS``, for smooth motion. iterations, tolerance: limits of an implicit integrator's own Newton iteration, or
-    of the contact solver's passes. substeps: steps of dt/substeps for each dt. record_every: a record each so many dt,
-    and always at the end. solver: of the joints' λ, a name in ``MULTIPLIERS``, or of the contacts'. friction, impact,
-    correction, warm_start, record_contacts: for contact; seed: for what is drawn at random.
+    ``INTEGRATORS``, for smooth motion. iterations, tolerance: limits of an implicit integrator's own
+    Newton iteration, or of the contact solver's passes. substeps: steps of dt/substeps for each dt.
+    record_every: a record each so many dt, and always at the end. solver: of the joints' λ, a name in
+    ``MULTIPLIERS``, or of the contacts'. friction, impact, correction, warm_start, record_contacts: for
+    contact; seed: for what is drawn at random.
     """
 
     simulator: str | None = None
@@ -66,7 +67,11 @@ class Settings:
         if simulator != needs.simulator:
             raise Unsupported(
                 f"simulator {simulator!r} can't run this scene: "
-                + ("something in it can touch" if needs.simulator == "velocity_lcp" else "nothing in it can touch")
+                + (
+                    "something in it can touch"
+                    if needs.simulator == "velocity_lcp"
+                    else "nothing in it can touch"
+                )
                 + f", so it needs {needs.simulator!r}"
             )
         inputs.whole("seed", given.seed)
@@ -96,7 +101,9 @@ class Settings:
             self,
             **chosen,
             iterations=self._iterations(100),
-            tolerance=1e-12 if self.tolerance is None else inputs.number("tolerance", self.tolerance, above=0),
+            tolerance=1e-12
+            if self.tolerance is None
+            else inputs.number("tolerance", self.tolerance, above=0),
         )
 
     def for_smooth(self, needs):
@@ -118,7 +125,9 @@ class Settings:
             solver=solver,
             integrator=inputs.choice("integrator", integrator, INTEGRATORS),
             iterations=self._iterations(30),
-            tolerance=1e-14 if self.tolerance is None else inputs.number("tolerance", self.tolerance, least=0),
+            tolerance=1e-14
+            if self.tolerance is None
+            else inputs.number("tolerance", self.tolerance, least=0),
         )
 
     def _iterations(self, otherwise):

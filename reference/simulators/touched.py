@@ -18,7 +18,9 @@ class Touched:
         self.d, self.notes, self.last, self.closed = d, [], None, []
 
     def add(self, contacts, impulse):
-        """Keep the contacts (``ContactArrays``) of a flight or an impact, with the impulses (m, d) in their frames, N s."""
+        """Keep the contacts (``ContactArrays``) of a flight or an impact, with the impulses (m, d) in
+        their frames, N s.
+        """
         self.last = contacts, impulse
         self.notes.append(self.last)
 
@@ -35,7 +37,9 @@ class Touched:
         del self.notes[mark:]
 
     def close(self, now, slack):
-        """End a record. now: the contacts of its state, gap ≤ slack m where they touch; the others count if they pushed."""
+        """End a record. now: the contacts of its state, gap ≤ slack m where they touch; the others count
+        if they pushed.
+        """
         there = part(now, now.gap <= slack)
         lists = [*self.notes, (there, np.zeros((len(there.gap), self.d)))]
         arrays = [np.concatenate([getattr(c, name) for c, _ in lists]) for name in _FIELDS]
@@ -56,7 +60,9 @@ class Touched:
         self.notes.clear()
 
     def history(self, records):
-        """The ``ContactHistory``: nothing at the first record, then the lists closed since it was asked for last."""
+        """The ``ContactHistory``: nothing at the first record, then the lists closed since it was asked
+        for last.
+        """
         if not self.closed:
             return ContactHistory.empty(records, self.d)
         lists, self.closed = self.closed[: records - 1], []

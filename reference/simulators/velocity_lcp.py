@@ -1,11 +1,12 @@
 """The velocity-based simulator, the widely used one: contact at the level of velocities and impulses (S12).
 
-A step of Δt, as S9 has it: find the contacts; solve w = A λ + b for the impulses λ, which keep bodies from going into each
-other; with them the new velocities; with these the new positions. What went into each other all the same is lifted
-apart first (S13), and where something rebounds the step stops at each impact.
+A step of Δt, as S9 has it: find the contacts; solve w = A λ + b for the impulses λ, which keep bodies
+from going into each other; with them the new velocities; with these the new positions. What went into
+each other all the same is lifted apart first (S13), and where something rebounds the step stops at each
+impact.
 
-Slides S9–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Numer. Methods Eng. 39 (1996) 2673; Anitescu &
-Potra, Nonlinear Dynamics 14 (1997) 231.
+Slides S9–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Numer. Methods Eng. 39 (1996)
+2673; Anitescu & Potra, Nonlinear Dynamics 14 (1997) 231.
 """
 
 import numpy as np
@@ -28,7 +29,9 @@ from .touched import Touched
 
 @compiled
 def fill_free(force, system, t, h, state, M, before, f, τ, free):
-    """The velocities after h without contact: u + Δt M⁻¹ f_e, into free (n, k); M (n, k, k) and u, before, are filled too."""
+    """The velocities after h without contact: u + Δt M⁻¹ f_e, into free (n, k); M (n, k, k) and u,
+    before, are filled too.
+    """
     fill_masses(system, state, M)
     gather_velocities(state, before)
     force(system, t, state, f, τ)
@@ -50,8 +53,8 @@ REST = 100  # times the solver's tolerance: so slow is at rest, where contacts h
 class VelocityLCP:
     """A scene made ready to run with contact: ``advance`` moves ``state``, and records if told to.
 
-    While a step is under way: M, before and free are the mass matrices, the velocities u now and those that there
-    would be after ``filled`` s without contact; ``now`` is the time of the clock.
+    While a step is under way: M, before and free are the mass matrices, the velocities u now and those
+    that there would be after ``filled`` s without contact; ``now`` is the time of the clock.
     """
 
     def __init__(self, scene, bodies, settings):
@@ -66,7 +69,11 @@ class VelocityLCP:
         self.fill_free = bind(fill_free, force)
         n, self.d = self.state.x.shape
         self.k = 6 if self.d == 3 else 3
-        self.M, self.before, self.free = np.zeros((n, self.k, self.k)), np.zeros((n, self.k)), np.zeros((n, self.k))
+        self.M, self.before, self.free = (
+            np.zeros((n, self.k, self.k)),
+            np.zeros((n, self.k)),
+            np.zeros((n, self.k)),
+        )
         self.f, self.τ = np.zeros((n, self.d)), np.zeros_like(self.state.ω)
         self.work = make_work(n, len(self.state.q), self.d, 30, 1e-15)
         radius = self.collider.solids.form.radius
@@ -78,8 +85,9 @@ class VelocityLCP:
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
         """So many steps of h; the time is origin + h · (steps done before, ``first``, and since).
 
-        Every so many steps, and after the last, a row of record and of solves is written, as in ``smooth.run``. Returns how
-        many steps were done: fewer than ``steps`` if the next would not have been finite.
+        Every so many steps, and after the last, a row of record and of solves is written, as in
+        ``smooth.run``. Returns how many steps were done: fewer than ``steps`` if the next would not have
+        been finite.
         """
         row = 0
         for done in range(steps):
