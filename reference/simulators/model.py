@@ -97,8 +97,9 @@ def model(scene):
     if pairs and scene.joints:
         i, j = next(scene.colliding_pairs())
         raise Unsupported(
-            f"bodies {i} and {j} could touch, and no simulator here computes joints and contact in one scene yet: put bodies "
-            f"that should pass through each other in one group, or call scene.pair({i}, {j}, collide=False)"
+            f"bodies {i} and {j} could touch, and no simulator here computes joints and contact in one "
+            "scene yet: put bodies that should pass through each other in one group, or call "
+            f"scene.pair({i}, {j}, collide=False)"
         )
     for number, joint in enumerate(scene.joints):
         if joint.limits is not None or (joint.motor is not None and joint.motor[1] < np.inf):
