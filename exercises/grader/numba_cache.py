@@ -10,7 +10,7 @@ MODULE = "numba.core.caching"
 
 
 class _Finder:
-    """Finds Numba's module of caches as usual, and changes it once it is loaded, before others take from it."""
+    """Finds the module of caches as usual, and changes it once it is loaded, before others take from it."""
 
     @staticmethod
     def find_spec(name, path=None, target=None):
