@@ -21,19 +21,20 @@ class Held:
 
     def __init__(self, bodies):
         rows = [rigid_rows(bodies), bounded_rows(bodies)]
-        order = np.argsort(
-            np.concatenate([part.joint for part in rows]), kind="stable"
-        )  # a joint's rows together
+        joint = np.concatenate([part.joint for part in rows])
+        order = np.argsort(joint, kind="stable")  # a joint's rows stand together
         self.rows = Rows(*(np.concatenate(arrays)[order] for arrays in zip(*rows, strict=True)))
         self.jacobian = make_jacobian(len(order), len(bodies.rotating), bodies.dimension)
         self.force = np.zeros(len(order))  # of the step before, N or N m
         self.size = mechanism_size(self.rows)
         lower, upper = self.rows.lower, self.rows.upper
         self.sign = np.where((upper == 0) & (lower < 0), -1.0, 1.0)  # upper limits are turned round
-        self.lower, self.upper = np.where(self.sign < 0, -upper, lower), np.where(self.sign < 0, -lower,
-        upper) self.limit = (self.lower == 0) & (self.upper > 0) self.motor = ~self.limit &
-        ((self.rows.speed != 0) | (self.upper < np.inf)) self.rigid = ~self.limit & ~self.motor self.φ,
-        self.J = np.zeros(len(order)), np.zeros_like(self.jacobian.J)
+        turned = self.sign < 0
+        self.lower, self.upper = np.where(turned, -upper, lower), np.where(turned, -lower, upper)
+        self.limit = (self.lower == 0) & (self.upper > 0)
+        self.motor = ~self.limit & ((self.rows.speed != 0) | (self.upper < np.inf))
+        self.rigid = ~self.limit & ~self.motor
+        self.φ, self.J = np.zeros(len(order)), np.zeros_like(self.jacobian.J)
 
     def __len__(self):
         return len(self.force)

@@ -201,8 +201,8 @@ class VelocityLCP:
             self.lifted = 0.0
             if self.open:
                 raise ValueError(
-                    f"joints must be able to hold at the same time, but one stays open by {self.open:.3g} whatever the bodies "
-                    "do: look at lengths and points of the loops that they close"
+                    f"joints must be able to hold at the same time, but one stays open by {self.open:.3g} "
+                    "whatever the bodies do: look at lengths and points of the loops that they close"
                 )
 
     def public_state(self, t, state):

@@ -4,8 +4,8 @@ hand.
 
 import numpy as np
 import pytest
-from contact_scenes import G, at, ground
 
+from contact_scenes import G, at, ground
 from reference import Box, Distance, Fixed, Hinge, Point, Scene, Slider, Unsupported, model, simulate
 
 
