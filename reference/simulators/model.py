@@ -103,8 +103,8 @@ def model(scene):
     soft = next((number for number, joint in enumerate(scene.joints) if joint.soft), None)
     if (pairs or bounded) and soft is not None:
         raise Unsupported(
-            f"joint {soft}, a {type(scene.joints[soft]).__name__}, has a spring or damper, which no simulator "
-            "here computes beside contact, limits or motors of limited force yet; use scene.spring"
+            f"joint {soft}, a {type(scene.joints[soft]).__name__}, has a spring or damper, which no "
+            "simulator here computes beside contact, limits or motors of limited force yet; use scene.spring"
         )
     moving = [body for body in scene.bodies if not body.static]
     rotating = [body for body in moving if not isinstance(body.shape, Point)]
