@@ -211,7 +211,8 @@ def measured_table():
     scene = ground()
     scene.add(Disc(0.3), position=(0, 0.3), velocity=(2, 0), friction=0.3)
     speed = simulate(scene, 1, FRAME).velocity[-1, 1, 0]
-    yield f"| disc, slides at 2 m/s, then rolls | 2/3 of the speed is left | {shown(abs(speed - 4 / 3))} m/s |"
+    off = shown(abs(speed - 4 / 3))
+    yield f"| disc, slides at 2 m/s, then rolls | 2/3 of the speed is left | {off} m/s |"
     run, rest = simulate(ball(0.5), 2, FRAME), 3 * np.sqrt(2 / G)
     late = np.abs(run.position[run.time > rest, 1, 1] - 0.1).max()
     yield f"| ball, e = ½, from 1 m | rests from 1.3546 s on | {shown(late)} m |"
