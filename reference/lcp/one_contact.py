@@ -16,7 +16,8 @@ that bisection can't fail. For Coulomb's law these are 0 and ∞. There λ_t = 0
 < 0; at 0, where it would stick, λ is outside the cone, so G > 0. For the convex law the matrix is singular
 at one α₀; the root lies below α₀ if λ comes up to it from within the cone, else above.
 
-In the plane the second tangent is given a row of its own, which stays 0.
+What rounding leaves is 1e-16 times A's condition number. In the plane the second tangent is given a row of
+its own, which stays 0.
 
 Slides S10, S14; lectures/08_newton_lcp.md. Source: Bonnefon & Daviet, Quartic formulation of Coulomb 3D
 frictional contact, INRIA RT-0400 (2011), for the quartic; Daviet, Bertails-Descoubes & Boissieux, ACM TOG
