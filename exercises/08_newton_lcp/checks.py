@@ -82,10 +82,6 @@ SLOPES = Check(
             "At (0, 0) the slopes are 0: so the row of Newton's matrix would be 0, and the matrix singular.",
             lambda v: right.slopes(v, corner=0.0),
         ),
-        cause(
-            "At (0, 0) a/√(a² + b²) is 0/0, which is NaN: there, take the limit along a = b > 0, 1/√2.",
-            lambda v, verdict: np.isnan(np.array(verdict.got, dtype=float)).any(),
-        ),
     ),
     hint="By a: tau (1 − a/√(a² + b²)), and (1 − tau) b where both are positive. At (0, 0): tau (1 − 1/√2).",
 )
