@@ -46,16 +46,25 @@ def solve_contact(A, q_n, q_1, q_2, μ, coulomb):
     κ = 0.0 if coulomb else μ * μ
     block = (A[0, 0], a_1, a_2, s_1, s_2, q_n, p_1, p_2, μ, κ)
     G, whole, n, t_1, t_2 = surface(0.0, block)
-    if whole <= 0 or not (G <= 0 and n >= 0):
-        α = find_slip(block)
-        G, whole, n, t_1, t_2 = surface(α, block)
+    if whole > 0 and G <= 0 and n >= 0:
+        n, t_1, t_2 = refine(block, n / whole, t_1 / whole, t_2 / whole)
+    else:
+        _, whole, n, t_1, t_2 = surface(find_slip(block), block)
         n, t_1, t_2 = n / whole, t_1 / whole, t_2 / whole
         t = np.hypot(t_1, t_2)
         if t > 0 and n > 0:
             t_1, t_2 = t_1 * (μ * n / t), t_2 * (μ * n / t)
-    else:
-        n, t_1, t_2 = n / whole, t_1 / whole, t_2 / whole
     return n, c * t_1 - s * t_2, s * t_1 + c * t_2
+
+
+@compiled
+def refine(block, n, t_1, t_2):
+    """λ of sticking once more: what rounding has left of w is solved for again, and added."""
+    A_nn, a_1, a_2, s_1, s_2, q_n, p_1, p_2, μ, κ = block
+    w_n = A_nn * n + a_1 * t_1 + a_2 * t_2 + q_n
+    w_1, w_2 = a_1 * n + s_1 * t_1 + p_1, a_2 * n + s_2 * t_2 + p_2
+    _, whole, more, more_1, more_2 = surface(0.0, (A_nn, a_1, a_2, s_1, s_2, w_n, w_1, w_2, μ, κ))
+    return n + more / whole, t_1 + more_1 / whole, t_2 + more_2 / whole
 
 
 @compiled
