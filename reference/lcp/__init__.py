@@ -25,8 +25,8 @@ is the whole solver. The kernel is written once for every form of A,
 
 For example, all of ``sor`` but its docstring:
 
-    def sor(problem, start=None, tolerance=1e-10, max_iterations=1000, *, omega=1.6, every=1):
-        options = natural_order, inputs.number("omega", omega, above=0), inputs.whole("every", every, least=1)
+    def sor(problem, start=None, tolerance=1e-10, max_iterations=1000, *, omega=1.6, every=None):
+        options = natural_order, relaxation(omega), how_often(every)
         return iterate(sweeps, problem, start, tolerance, max_iterations, options=options)
 
 The first four of the kernel come from ``operators``, ``terms`` is what stands beside A, λ is start and
@@ -42,11 +42,17 @@ and ``merit.gap`` give r_i.
 Slides S11–S17; lectures/06_pivoting_lcp.md, lectures/07_iterative_lcp.md.
 """
 
+from .block import block_gauss_seidel, block_jacobi
 from .gauss_seidel import gauss_seidel
+from .jacobi import damped_jacobi, jacobi
 from .problem import LCP, ConeProblem
 from .solution import STATUSES, Solution
+from .sor import red_black, sor, symmetric_gauss_seidel
 
-_METHODS = (gauss_seidel,)
+_METHODS = (
+    *(jacobi, damped_jacobi, gauss_seidel, symmetric_gauss_seidel, sor, red_black),  # splitting
+    *(block_jacobi, block_gauss_seidel),
+)
 SOLVERS = {method.__name__: method for method in _METHODS}
 
 __all__ = ["LCP", "SOLVERS", "STATUSES", "ConeProblem", "Solution", *SOLVERS]

@@ -25,7 +25,10 @@ import numpy as np
 from ..compiled import compiled
 from .envelope import Envelope, add_block, cholesky_in_envelope, make_envelope, solve_in_envelope
 
-NEAR, SMALLEST = 1e-6, 1e-10  # ε to begin with, and where passes shrink the error too slowly; rounding in λ is 1e-16/ε
+NEAR, SMALLEST = (
+    1e-6,
+    1e-10,
+)  # ε to begin with, and where passes shrink the error too slowly; rounding in λ is 1e-16/ε
 OPEN, STICKS, SLIDES = 0, 1, 2  # 3: slides the other way, in the plane
 MOST_NEWTON, MOST_HALVINGS = 50, 30
 
@@ -165,7 +168,9 @@ def over_mass(M, a):
         I[0, 1] * I[1, 2] - I[0, 2] * I[1, 1],
     )
     determinant = I[0, 0] * p + I[0, 1] * q + I[0, 2] * s
-    turning = p * x * x + (I[0, 0] * I[2, 2] - I[0, 2] ** 2) * y * y + (I[0, 0] * I[1, 1] - I[0, 1] ** 2) * z * z
+    turning = (
+        p * x * x + (I[0, 0] * I[2, 2] - I[0, 2] ** 2) * y * y + (I[0, 0] * I[1, 1] - I[0, 1] ** 2) * z * z
+    )
     turning += 2 * (q * x * y + s * x * z + (I[0, 1] * I[0, 2] - I[0, 0] * I[1, 2]) * y * z)
     return (a[0] ** 2 + a[1] ** 2 + a[2] ** 2) / M[0, 0] + turning / determinant
 
@@ -178,7 +183,9 @@ def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial)
     rest, before, whole = worst_rate(M, out.gradient), np.inf, False
     for newton in range(MOST_NEWTON):
         fresh = stands_for(factor.made, out.state, u.shape[1])
-        if rest <= tolerance or (whole and fresh and rest > 0.5 * before):  # good, or as good as rounding lets it be
+        if rest <= tolerance or (
+            whole and fresh and rest > 0.5 * before
+        ):  # good, or as good as rounding lets it be
             return
         if not fresh:
             fill_matrix(rows, M, ρ, out, factor)
@@ -370,5 +377,3 @@ def renew_shift(rows, w, λ, shift, answer):
         answer[q, 0], answer[q, 1] = shift[q], new
         shift[q] = max(0.0, shift[q] + change / (1 - min(max(share, -1.0), 0.8)))
     return worst
-
-
