@@ -2,7 +2,7 @@
 
 D holds the blocks of A on its diagonal in place of single numbers. Each block is a small LCP of its own,
 
-    w_B = A_BB λ_B + (what all other rows say),   λ_B clipped row by row, friction by the λ_n just renewed (S17)
+    w_B = A_BB λ_B + (what all other rows say),   each row clipped, friction by the newest λ_n (S17)
 
 solved by sweeps within the block, over numbers at hand, until they change nothing more. Clipping A_BB⁻¹ w_B
 instead would be wrong: a contact that slides keeps w_t ≠ 0, and A_BB⁻¹ would let it push λ_n.
@@ -58,8 +58,8 @@ def solve_block(terms, blocks, k, λ, w, inner):
 @compiled
 def block_sweeps(follow, row, rows, change, A, terms, λ, scale, tolerance, history, blocks, inner, every):
     """Sweep over the blocks, each from the newest λ: as ``gauss_seidel.sweeps``."""
-    x, w = follow(A, λ), np.zeros(blocks.widest)
-    λ_old, x_old, before = λ.copy(), x.copy(), np.zeros(blocks.widest)
+    x, w, before = follow(A, λ), λ[: blocks.widest].copy(), λ[: blocks.widest].copy()  # of one block
+    λ_old, x_old = λ.copy(), x.copy()
     for k in range(len(history) - 1):
         looking, worst = k % every == 0, 0.0
         if looking:
@@ -90,7 +90,7 @@ def block_sweeps(follow, row, rows, change, A, terms, λ, scale, tolerance, hist
 @compiled
 def blocks_at_once(follow, row, rows, change, A, terms, λ, scale, tolerance, history, blocks, inner, ω):
     """Sweep over the blocks, each from the old λ, and go ω of the way: as ``jacobi.all_at_once``."""
-    x, new, w = follow(A, λ), λ.copy(), np.zeros(blocks.widest)
+    x, new, w = follow(A, λ), λ.copy(), λ[: blocks.widest].copy()
     for k in range(len(history) - 1):
         worst = 0.0
         for block in range(len(blocks.begin) - 1):

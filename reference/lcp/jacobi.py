@@ -10,7 +10,8 @@ definite A only if 2D − A is so, too. With a smaller ω (damped) it always doe
 largest eigenvalue of D⁻¹A. That is at most the largest row sum of |A_ij|/A_ii (Gershgorin). For the factored
 operator, which has no row sums at hand, each body shares itself out among the k rows that concern it:
 
-    λᵀ A λ = Σ_bodies |Σ_i L⁻¹J_i λ_i|² ≤ Σ_bodies k Σ_i |L⁻¹J_i λ_i|²,   so   λ_max ≤ max_i Σ_bodies k a_i / A_ii
+    λᵀ A λ = Σ_bodies |Σ_i L⁻¹J_i λ_i|² ≤ Σ_bodies k Σ_i |L⁻¹J_i λ_i|²
+    λ_max ≤ max_i Σ_bodies k a_i / A_ii
 
 with L Lᵀ the body's mass matrix and a_i = J_i M⁻¹ J_iᵀ its part of A_ii.
 

@@ -49,8 +49,8 @@ def contacts(problem):
 def colours(problem):
     """A colour, 0, 1, 2 …, for each row (n,): contacts that A couples, or that share a body, differ in it.
 
-    Greedy: contact after contact takes the lowest colour that none of its neighbours has yet. For a factored A
-    the bodies remember which colours they have met, and A isn't formed.
+    Greedy: contact after contact takes the lowest colour that no neighbour has yet. For a factored A the
+    bodies remember which colours they have met, and A isn't formed.
     """
     names, contact = np.unique(contacts(problem), return_inverse=True)
     A, count, row = problem.A, len(names), np.arange(problem.n)
