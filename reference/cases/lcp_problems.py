@@ -108,6 +108,28 @@ def column(n=10, heavy=1.0, factored=False):
     return Known(LCP(A if factored else A.tosparse(), b), answer, "statics", hard)
 
 
+def tower(n=10, aspect=1.0, inertia=1.0):
+    """A column of n boxes in the plane that touch at both ends of their width, 1 kg, g h = 1, no friction.
+
+    aspect: a box's height over its width. inertia: times that of a box filled evenly. Only κ = m r²/I of a
+    contact counts, r half the width: 3/(1 + aspect²)/inertia. Rows 2i, 2i + 1 are the left and right contact
+    below box i; each carries half of what lies above.
+    """
+    n = inputs.whole("n", n, least=1)
+    aspect, inertia = inputs.number("aspect", aspect, above=0), inputs.number("inertia", inertia, above=0)
+    κ = 3 / (1 + aspect**2) / inertia
+    lower = np.repeat(np.arange(n) - 1, 2)
+    bodies = np.stack([lower, lower + 1], axis=1)
+    lever = np.tile([-1.0, 1.0], n)
+    J = np.stack([np.ones(2 * n), lever], axis=1)[:, None, :] * [[[-1.0], [1.0]]]  # velocity, and r ω
+    A = Factored(bodies, J, J * (1, κ), n)
+    b = np.zeros(2 * n)
+    b[:2] = -1
+    answer = np.repeat((n - np.arange(n)) / 2.0, 2)
+    hard = "long narrow boxes (κ small) and small inertia (κ large) converge slowly, and Jacobi fails (S15)"
+    return Known(LCP(A.tosparse(), b), answer, "statics", hard)
+
+
 def heavy_on_light(ratio=100.0):
     """A box of mass ``ratio`` on one of mass 1 (a column of two)."""
     return column(2, ratio)
@@ -221,7 +243,7 @@ LCP_PROBLEMS = Catalogue(
     {
         function.__name__: function
         for function in (
-            easy, kostreva, murty_2_8, lemke_exponential, murty_exponential, jacobi_fails, column,
+            easy, kostreva, murty_2_8, lemke_exponential, murty_exponential, jacobi_fails, column, tower,
             heavy_on_light, no_solution, several_solutions, redundant, zero_diagonal, degenerate, painleve,
             sliding_contact, dragged_block, planted,
         )
