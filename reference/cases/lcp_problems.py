@@ -90,10 +90,11 @@ def jacobi_fails(n=3, coupling=0.9):
     return Known(LCP(A, -np.ones(n)), answer, "by symmetry", "positive definite, and Jacobi diverges")
 
 
-def column(n=10, heavy=1.0, factored=False):
+def column(n=10, heavy=1.0, factored=False, chain=False):
     """A column of n boxes of 1 kg, the top one ``heavy`` times that, λ as n impulses from below, g h = 1.
 
-    Row i is between box i − 1 (or the ground) and box i; λ_i carries all that lies above.
+    Row i is between box i − 1 (or the ground) and box i; λ_i carries all that lies above. chain: the same
+    upside down, n links that hang from one another, a linear system: rows without bounds.
     """
     n, heavy = inputs.whole("n", n, least=1), inputs.number("heavy", heavy, above=0)
     mass = np.ones(n)
@@ -105,7 +106,8 @@ def column(n=10, heavy=1.0, factored=False):
     b[0] = -1  # all boxes fall alike, only the lowest towards something that doesn't
     answer = np.cumsum(mass[::-1])[::-1].copy()
     hard = "what the ground does reaches the top in n sweeps at best; with a heavy top in ever more (S15)"
-    return Known(LCP(A if factored else A.tosparse(), b), answer, "statics", hard)
+    lower = -np.inf if chain else 0
+    return Known(LCP(A if factored else A.tosparse(), b, lower), answer, "statics", hard)
 
 
 def tower(n=10, aspect=1.0, inertia=1.0):

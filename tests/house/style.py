@@ -36,6 +36,7 @@ LAYERS = (
     ("simulators",),
     ("continuum",),
     ("cases", "peers", "measure", "bench", "bench_methods", "bench_report", "cluster", "view", "__main__"),
+    ("bench_sweeps", "bench_lcp"),
 )
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 
