@@ -19,7 +19,7 @@ NEARLY = 1e-4  # and below which it may become one
 
 
 class Choice(NamedTuple):
-    """A solver's name, why it; the rows, how many of them are redundant at the start, whether there are loops."""
+    """A solver and why; how many rows, and redundant ones at the start; whether joints close loops."""
 
     solver: str
     why: str
@@ -60,7 +60,7 @@ def joints_on_a_body(rows):
 
 
 def scaled_rows(bodies, rows):
-    """J M^(−1/2) at the start with each row divided by its length: (m, velocities); its square is A, scaled."""
+    """J M^(−1/2) at the start, each row divided by its length: (m, velocities); its square is A, scaled."""
     m, d = len(rows.kind), bodies.dimension
     jacobian = make_jacobian(m, len(bodies.rotating), d)
     fill_rows(rows, bodies.state(), jacobian)

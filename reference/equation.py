@@ -2,8 +2,8 @@
 
     M u̇ = f_e + Jᵀ λ,   J u̇ + J̇ u = 0      ⇒      A λ + b = 0,   A = J M⁻¹ Jᵀ,   b = J M⁻¹ f_e + J̇ u
 
-says it for accelerations. A time-stepping method says it for the velocities u⁺ at the end of a step, with J as
-it is at the start, so that J̇ u does not appear:
+says it for accelerations. A time-stepping method says it for the velocities u⁺ at the end of a step, with J
+as it is at the start, so that J̇ u does not appear:
 
     M u⁺ = M u + Δt f_e + Δt Jᵀ λ,   J u⁺ = speed − share φ/Δt
         ⇒   w⁺ = A λ + b,   A = Δt J M⁻¹ Jᵀ,   b = J (u + Δt M⁻¹ f_e) + share φ/Δt − speed,   w⁺ = 0
@@ -37,9 +37,9 @@ SINGULAR = 1e-11  # of A's largest eigenvalue: what is smaller is rounding
 class Equation(NamedTuple):
     """M x − h Jᵀ λ = right and J x = wanted, and what follows: A λ + b = 0. N velocities, m rows.
 
-    The N columns are all v, of the bodies that rotate first, then all ω. M (N, N) and J (m, N): dense or SciPy
-    sparse arrays; A: the same, or a ``Factored`` of which h has been made part. φ (m,): how far the rows are
-    from holding, m or rad. J x and wanted are rates of w, or w itself, m/s² or m/s, rad/s² or rad/s.
+    The N columns are all v, of the bodies that rotate first, then all ω. M (N, N) and J (m, N): dense, or
+    SciPy's sparse arrays; A: the same, or a ``Factored`` with h in it. φ (m,): how far the rows are from
+    holding, m or rad. J x and wanted are ẇ or w, m/s² or m/s, rad/s² or rad/s.
     """
 
     M: object
@@ -120,8 +120,8 @@ def solve_schur(equation):
 def solve_kkt(equation):
     """x and λ at once, from the system that A is the Schur complement of: [[M, −h Jᵀ], [J, 0]].
 
-    It has N + m unknowns, is not definite, and sparse however many rows a body has. Raises ValueError where it
-    is singular, which redundant joints make it.
+    It has N + m unknowns, is not definite, and sparse however many rows a body has. Raises ValueError where
+    it is singular, which redundant joints make it.
     """
     M, J, m = scipy.sparse.csr_array(equation.M), scipy.sparse.csr_array(equation.J), len(equation.b)
     system = scipy.sparse.block_array([[M, -equation.h * J.T], [J, scipy.sparse.csr_array((m, m))]])

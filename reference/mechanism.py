@@ -18,13 +18,13 @@ from .rows import Jacobian, Rows, fill_rows, make_jacobian
 
 
 class Mechanism(NamedTuple):
-    """The joints of a scene, and room to compute in. M moving bodies; m rigid rows come first, then soft ones.
+    """The joints of a scene, and room to compute in: m rigid rows first, then soft ones; M moving bodies.
 
-    B (m, 2, k): the rows of J M⁻¹. right (m,): right-hand side of A λ = right; λ (m,): its solution for
-    the constraint forces; change (m,): for what is put back after a step. v (M, d),
-    ω (r, 3) or (r, 1): velocities or their rates. solver, factor: see ``multipliers``. watch (4,): the smallest
-    pivot, relative to what it was before the elimination; the smallest and the largest rank seen so far; a gap
-    that could not be closed, relative to the scale.
+    B (m, 2, k): the rows of J M⁻¹. right (m,): right-hand side of A λ = right; λ (m,): its solution for the
+    constraint forces; change (m,): for what is put back after a step. v (M, d), ω (r, 3) or (r, 1):
+    velocities or their rates. solver, factor: see ``multipliers``. watch (4,): the smallest pivot, relative
+    to what it was before the elimination; the smallest and the largest rank seen so far; a gap that could not
+    be closed, relative to the scale.
     """
 
     rows: Rows
@@ -42,7 +42,7 @@ class Mechanism(NamedTuple):
     tolerance: float  # of φ, relative to the scale
 
 
-def make_mechanism(bodies, rigid, soft, solver, factor, tolerance=1e-12):
+def make_mechanism(bodies, rigid, soft, solver, factor, tolerance=1e-11):
     """Room for the rows of these bodies (``layout.Bodies``)."""
     d, r, m = bodies.dimension, len(bodies.rotating), len(rigid.kind)
     rows = Rows(*(np.concatenate(pair) for pair in zip(rigid, soft, strict=True)))

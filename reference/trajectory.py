@@ -114,7 +114,7 @@ class Trajectory:
         return BodyState(self.start_time + float(self.time[k]), *(array[k].copy() for array in arrays))
 
     def energy(self):
-        """Kinetic energy and the potential energy of gravity, springs, joints' springs and gravitation, J: (T,)."""
+        """Kinetic, and potential of gravity, springs (joints' too) and gravitation, J: (T,)."""
         kinetic = 0.5 * np.square(self.velocity).sum(axis=-1) @ self.bodies.mass
         kinetic = kinetic + 0.5 * (self._spin * self.angular_velocity).reshape(len(self.time), -1).sum(
             axis=-1
@@ -145,7 +145,7 @@ class Trajectory:
         return worst_gap(self.bodies, self.position, self.orientation)
 
     def joint_forces(self):
-        """What the joints do at each record: a ``JointForces``. Computed when asked for, from the motion alone.
+        """What the joints do at each record: a ``JointForces``. Computed when asked for, from the motion.
 
         Raises ValueError for a run that can't tell, such as an engine's.
         """

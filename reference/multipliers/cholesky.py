@@ -34,8 +34,8 @@ def substitute(m, factor, right, λ):
 def cholesky(L, at, m):
     """L in place of a symmetric matrix's lower triangle, which starts at ``at`` in a flat array, row by row.
 
-    Returns the smallest pivot relative to the diagonal. Where the matrix is singular, to rounding, L is nan, so
-    that nothing wrong can be taken for an answer.
+    Returns the smallest pivot relative to the diagonal. Where the matrix is singular, to rounding, L is nan,
+    so that nothing wrong can be taken for an answer.
     """
     smallest = 1.0
     for p in range(m):

@@ -24,7 +24,7 @@ DEPENDENT = 1e-11  # a pivot, over what was there before the elimination, below 
 
 
 def prepare(rows, system):
-    """A ``Factor``: values is A, L of 1 + WᵀW, W transposed (m² each), two vectors; pattern the order, then r."""
+    """A ``Factor``: values is A, L of 1 + WᵀW, W transposed, m² each, two vectors; pattern order, then r."""
     m = len(rows.kind)
     return make_factor(
         meeting_rows(rows, lambda p, q: p * m + q), np.zeros((m + 1, 1), dtype=int), values=3 * m * m + 2 * m
@@ -58,7 +58,7 @@ def factorise(m, factor, J, B):
 
 @compiled
 def pivoted_cholesky(m, A, order, diagonal):
-    """L of the rows in the order chosen, in place; their number r in order[m]. ``diagonal``: where A keeps it."""
+    """L of the rows in the order chosen, in place; their number r in order[m]; the diagonal is kept too."""
     for p in range(m):
         order[p, 0] = p
         A[diagonal + p] = A[p * m + p]

@@ -24,8 +24,9 @@ def prepare(rows, system):
     """A ``Factor``: links (n, 5), from the leaves to the roots: a body, its parent (−1: none that moves), at
     which side of their joint's rows the body is, the joint's first row, and how many it has.
 
-    values: H of each of the M bodies; G = J_c H_c⁻¹, S and P = S⁻¹ J_p of each link, k² each, k = 6 velocities
-    a body in space, 3 in the plane; then g and δu of each body, s of each link, and room for a vector, k each.
+    values: H of each of the M bodies; G = J_c H_c⁻¹, S and P = S⁻¹ J_p of each link, k² each, with k = 6
+    velocities a body in space, 3 in the plane; then g and δu of each body, s of each link, and room for a
+    vector, k each.
     Raises ValueError where the joints close a loop.
     """
     M, k = len(system.mass), 6 if len(system.gravity) == 3 else 3
@@ -78,7 +79,7 @@ def places(factor, M, k):
 
 @compiled
 def factorise(factor, J, mass, inertia, frame):
-    """Articulated inertias, from the leaves to the roots. Returns the smallest pivot, as ``cholesky`` does."""
+    """Articulated inertias, from the leaves to the roots. Returns the smallest pivot, as ``cholesky``."""
     values, links = factor.values, factor.links
     M, k = len(mass), J.shape[2]
     G0, S0, P0, _, _, _, column = places(factor, M, k)

@@ -22,8 +22,8 @@ class Joints:
         self.bodies, self.solver, self.choice = bodies, solver, choose_solver(bodies, rigid)
         if self.choice.redundant and solver != "minimum_norm":
             raise ValueError(
-                f"solver must be 'minimum_norm' here, since {self.choice.redundant} of {self.choice.rows} rows "
-                f"are redundant, but is {solver!r}"
+                f"solver must be 'minimum_norm' here, since {self.choice.redundant} of {self.choice.rows} "
+                f"rows are redundant, but is {solver!r}"
             )
         method = MULTIPLIERS[solver]
         factor = method.prepare(rigid, bodies.system)
@@ -48,9 +48,9 @@ class Joints:
         worst = self.rows.joint[int(np.argmax(φ))]
         joint = self.bodies.joints[worst]
         raise ValueError(
-            f"joints must be able to hold at the same time, but joint {worst}, a {type(joint).__name__} of bodies "
-            f"{joint.a} and {joint.b}, stays open by {φ.max():.3g} whatever the bodies do: look at lengths "
-            "and points of the loop that it closes"
+            f"joints must be able to hold at the same time, but joint {worst}, a {type(joint).__name__} of "
+            f"bodies {joint.a} and {joint.b}, stays open by {φ.max():.3g} whatever the bodies do: "
+            "look at lengths and points of the loop that it closes"
         )
 
     def compare_start(self, before, state):
@@ -86,9 +86,9 @@ class Joints:
         if self.solver == "minimum_norm" and least < m:
             ranks = f"{int(most)}" if least == most else f"{int(least)} to {int(most)}"
             said.append(
-                f"the joints are redundant: of {m} rows {ranks} are independent. The motion is unique, the "
-                "joints' forces are not: λ is the one with the smallest sum of squares in the rows' own frames, "
-                "which adds up N and N m as if they were one"
+                f"the joints are redundant: of {m} rows {ranks} are independent. The motion is unique, "
+                "the joints' forces are not: λ is the one with the smallest sum of squares in the rows' own "
+                "frames, which adds up N and N m as if they were one"
             )
         if self.choice.loops and (smallest < NEAR or most > least):
             said.append(

@@ -91,8 +91,9 @@ def model(scene):
     for number, joint in enumerate(scene.joints):
         if joint.limits is not None or (joint.motor is not None and joint.motor[1] < np.inf):
             raise Unsupported(
-                f"joint {number}, a {type(joint).__name__}, has limits or a motor of limited force, which make an "
-                "LCP, and no simulator here solves one yet: leave out limits, or give the motor max_force=inf"
+                f"joint {number}, a {type(joint).__name__}, has limits or a motor of limited force, which "
+                "make an LCP, and no simulator here solves one yet; leave out limits, or give the motor "
+                "max_force=inf"
             )
     moving = [body for body in scene.bodies if not body.static]
     rotating = [body for body in moving if not isinstance(body.shape, Point)]

@@ -23,8 +23,9 @@ class Settings:
 
     simulator: a family of S3: "smooth", where nothing can touch. integrator: a name in ``INTEGRATORS``.
     iterations, tolerance: limits of an implicit integrator's own Newton iteration. substeps: steps of
-    dt/substeps for each dt. record_every: a record each so many dt, and always at the end. solver: for
-    the joints' λ, a name in ``MULTIPLIERS``. friction, impact, correction, warm_start, record_contacts: for contact; seed: for what is drawn at random.
+    dt/substeps for each dt. record_every: a record each so many dt, and always at the end. solver: of the
+    joints' λ, a name in ``MULTIPLIERS``. friction, impact, correction, warm_start, record_contacts: for
+    contact; seed: for what is drawn at random.
     """
 
     simulator: str | None = None

@@ -14,7 +14,6 @@ from ..trajectory import BodyState, ContactHistory, Trajectory
 from .model import model
 from .settings import SIMULATORS, Settings
 
-
 JOINED = 1e-9  # of a mechanism's size: a gap in the joints after a step that is told
 
 

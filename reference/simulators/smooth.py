@@ -110,20 +110,28 @@ class Smooth:
             self.begin()
 
     def begin(self):
-        """Close the joints and take out velocities that they don't allow: a step that takes no time."""
+        """Close the joints and take out velocities that they don't allow: steps that take no time.
+
+        The second one finds the joints closed, and so has J for the velocities where they are.
+        """
         before = self.state.y.copy()
-        if self.advance(0.0, 0, 0.0, 1) < 1:
+        if self.advance(0.0, 0, 0.0, 2) < 2:
             self.joints.refuse_start()
         self.joints.compare_start(before, self.state)
 
     def joint_forces(self, times, records):
-        """``JointForces`` at these times, from the records y (T, size): found anew, without moving on."""
-        kept, found = self.state.y.copy(), []
+        """``JointForces`` at these times, from the records y (T, size): found anew by steps of no time."""
+        if not self.joints:
+            raise ValueError("joint_forces() needs a scene with joints: this one has none")
+        kept, found = self.state, []
         for t, y in zip(times, records, strict=True):
-            self.set_state(self.public_state(t, self.state._replace(y=y)))
+            then = self.public_state(t, kept._replace(y=y))
+            self.state = self.bodies.state(
+                then.position, then.orientation, then.velocity, then.angular_velocity
+            )
             self.advance(t, 0, 0.0, 1)
             found.append(self.joints.forces(self.state))
-        self.set_state(self.public_state(0.0, self.state._replace(y=kept)))
+        self.state = kept
         return JointForces(*(np.array(part) for part in zip(*found, strict=True)), self.joints.rows.joint)
 
     def failure(self):

@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 import independent_joints as apart
 from independent_joints import PARTNERS, PLANE, SPACE
 from reference import BallJoint, Box, Distance, Fixed, Hinge, Point, Polygon, Scene, Slider, compiled
+from reference.correction import displace
 from reference.joints.row import frame
 from reference.layout import Bodies
 from reference.mechanism import rigid_rows, soft_rows
@@ -87,6 +88,24 @@ def test_w_and_its_rate_are_the_derivatives_of_φ(name, d, partners, where):
         assert_allclose(out.rate, rate, rtol=0, atol=2e-6)
         if where == "at the start":
             assert_allclose(out.φ, 0, rtol=0, atol=1e-14)
+
+
+@every_kind
+def test_the_rate_is_that_of_J_at_constant_u(name, d):
+    """(J(h) u − J(−h) u) / 2h, off the joint; for the row of the coordinate as well."""
+    rng, h = np.random.default_rng(14), 1e-5
+    law = {"stiffness": 1} if kind_of(name, d).driven else {}
+    for _ in range(3):
+        bodies, state = anywhere(name, d, "two bodies", rng, **law)
+        for rows in (rigid_rows(bodies), soft_rows(bodies)):
+            w = []
+            for t in (-h, h):
+                moved = bodies.state()
+                moved.y[:] = state.y
+                displace(moved, t * state.v, t * state.ω)
+                w.append(filled(bodies, rows, moved)[1] @ state.u)
+            rate = filled(bodies, rows, state)[0].rate
+            assert_allclose((w[1] - w[0]) / (2 * h), rate, rtol=0, atol=1e-6)
 
 
 @pytest.mark.parametrize("d", [3, 2])
