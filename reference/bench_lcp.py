@@ -96,7 +96,8 @@ class LcpStudy:
         lines = [f"{self.label}: milliseconds until the residual is …", f"  {'':24}{aims}   in the end"]
         for name in dict.fromkeys(row["method"] for row in rows):
             mine = [row for row in rows if row["method"] == name]
-            curve = measure.front([(row["cpu_s"], max(row["residual"] or np.nan, 1e-16)) for row in mine])
+            known = [row for row in mine if row["residual"] is not None]
+            curve = measure.front([(row["cpu_s"], max(row["residual"], 1e-16)) for row in known])
             times = (measure.time_at(curve, aim) * 1e3 for aim in AIMS)
             cells = "".join(f"{time:10.3g}" if np.isfinite(time) else f"{'—':>10}" for time in times)
             last = mine[-1]
