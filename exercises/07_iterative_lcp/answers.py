@@ -46,16 +46,12 @@ def solve(v, sweep_once=sweep, most=None):
     return λ
 
 
-def matrix(v, *, all_rows=False, r=None, divided=True, without_free=False):
-    """G of the free rows; the options are mistakes."""
-    A, ω = v["A"], v["omega"]
-    free = np.ones(len(A), bool) if all_rows else v["free"].astype(bool)
-    A = A[np.ix_(free, free)]
+def matrix(v, *, r=None):
+    """G of the free rows; another r is a mistake."""
+    free = v["free"].astype(bool)
+    A = v["A"][np.ix_(free, free)]
     D = np.diag(A.diagonal()) + (v["r"] if r is None else r) * np.tril(A, -1)
-    if not divided:
-        D = np.diag(A.diagonal()) / ω + np.tril(A, -1)
-        ω = 1.0
-    return np.eye(len(A)) - ω * np.linalg.solve(D, A)
+    return np.eye(len(A)) - v["omega"] * np.linalg.solve(D, A)
 
 
 def chain_rate(v, *, real=False, ends="free", largest=True):

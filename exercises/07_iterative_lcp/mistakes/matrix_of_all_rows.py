@@ -1,6 +1,6 @@
 # Mistake: rows at a bound are left in.
 # Loses: error_matrix
-# Says: error_matrix: Rows at a bound
+# Says: error_matrix: rows at a bound
 # ruff: noqa: F821 (names that are not defined here are solution_a's)
 
 

@@ -1,6 +1,6 @@
 # Mistake: the matrix of SOR.
 # Loses: error_matrix
-# Says: error_matrix: SOR
+# Says: error_matrix: r is not used
 # ruff: noqa: F821 (names that are not defined here are solution_a's)
 
 

@@ -1,5 +1,5 @@
 # Mistake: λ is clipped after the sweep, not within it.
-# Loses: aor_sweep
+# Loses: aor_sweep, solve_aor
 # Says: aor_sweep: λ is clipped after the sweep
 # ruff: noqa: F821 (names that are not defined here are solution_a's)
 

@@ -1,5 +1,5 @@
 # Mistake: r is not used: SOR, whatever r is.
-# Loses: aor_sweep, solve_aor
+# Loses: aor_sweep
 # Says: aor_sweep: r is not used
 
 
