@@ -1,6 +1,6 @@
 """Residual and error of λ against processor time, for every solver that takes the problem.
 
-``python -m reference.bench_lcp [LABEL…]`` runs these studies alone; ``course.py bench lcp/…`` does the same.
+``course.py bench lcp`` runs these studies, ``course.py bench lcp/stack/1:1000`` one of them.
 
 A solver is a curve: it is given 1, 4, 16 … iterations, until it has solved the problem, says why it can't, or
 takes longer than is granted. What is timed is the whole call. The solvers take turns, and medians count.
@@ -12,11 +12,8 @@ A problem is any function that returns a ``Known``: contact problems recorded fr
 Slides S13–S17; lectures/07_iterative_lcp.md.
 """
 
-import argparse
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 
@@ -150,24 +147,3 @@ def _studies():
 
 
 LCP_STUDIES = Catalogue("case", {**{study.label: study for study in _studies()}, **SWEEPS})
-
-
-def main(arguments=None):
-    """Run studies by their labels, none named: all; tables to the terminal, pictures to a folder."""
-    parser = argparse.ArgumentParser(prog="bench_lcp", description="LCP solvers: error against time.")
-    parser.add_argument("labels", nargs="*", metavar="LABEL", help=f"of {', '.join(LCP_STUDIES)}")
-    parser.add_argument("--out", type=Path, help="folder for the pictures; none: no pictures")
-    parser.add_argument("--quick", action="store_true", help="short runs, few repeats")
-    options = parser.parse_args(arguments)
-    longest, repeats = (0.03, 3) if options.quick else (0.5, 5)
-    for label in options.labels or list(LCP_STUDIES):
-        study = LCP_STUDIES[label]
-        rows = study.measure(longest, repeats, lambda message: print(message, file=sys.stderr))
-        print(study.table(rows), flush=True)
-        if options.out:
-            options.out.mkdir(parents=True, exist_ok=True)
-            study.plot(rows, options.out / f"{label.replace('/', '_')}.png")
-
-
-if __name__ == "__main__":
-    main()

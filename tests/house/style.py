@@ -35,8 +35,21 @@ LAYERS = (
     ("trajectory",),
     ("simulators",),
     ("continuum",),
-    ("cases", "peers", "measure", "bench", "bench_methods", "bench_report", "cluster", "view", "__main__"),
-    ("bench_sweeps", "bench_lcp"),
+    (
+        "cases",
+        "peers",
+        "measure",
+        "bench",
+        "bench_contests",
+        "bench_growth",
+        "bench_lcp",
+        "bench_methods",
+        "bench_report",
+        "bench_sweeps",
+        "cluster",
+        "view",
+        "__main__",
+    ),
 )
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 
