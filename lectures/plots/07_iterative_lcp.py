@@ -156,7 +156,7 @@ FIGURES = {
 
 def rates_table():
     """Predicted and measured rates side by side, and what they come to in sweeps."""
-    yield "| ten equal boxes | rate in closed form | from the spectrum | measured | iterations to 1e-6 |"
+    yield "| ten equal boxes | closed form | from the spectrum | measured | iterations to 1e-6 |"
     yield "|---|---|---|---|---|"
     n, problem = 10, LCP_PROBLEMS["column"](10).problem
     ρ = np.cos(np.pi / (2 * n))
@@ -182,8 +182,13 @@ def slow_table():
     """One box on two contacts: κ, rate, sweeps, predicted and measured."""
     yield "| one box on two contacts | κ | rate ((1 − κ)/(1 + κ))² | sweeps for 1e-6, predicted | measured |"
     yield "|---|---|---|---|---|"
-    cases = (("as high as wide", 1, 1), ("4 times as high", 4, 1), ("16 times as high", 16, 1),
-             ("as high as wide, inertia × 0.1", 1, 0.1), ("as high as wide, inertia × 0.01", 1, 0.01))  # fmt: skip
+    cases = (
+        ("as high as wide", 1, 1),
+        ("4 times as high", 4, 1),
+        ("16 times as high", 16, 1),
+        ("as high as wide, inertia × 0.1", 1, 0.1),
+        ("as high as wide, inertia × 0.01", 1, 0.01),
+    )
     for label, aspect, inertia in cases:
         κ = 3 / (1 + aspect**2) / inertia
         ρ = ((1 - κ) / (1 + κ)) ** 2

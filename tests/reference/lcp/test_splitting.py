@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 import scipy.sparse
 
+from reference.bench_sweeps import c_loop
+from reference.cases.lcp_lattice import lattice
 from reference.cases.lcp_problems import LCP_PROBLEMS
 from reference.compiled import plain
 from reference.factored import Factored
@@ -301,3 +303,43 @@ def test_safe_damping_is_below_the_limit(factored):
 def test_bad_arguments(method, options, error, words):
     with pytest.raises(error, match=words):
         method(with_friction(), **options)
+
+
+# --- beside an engine, and beside C -------------------------------------------------------------------------
+
+
+def balls_in_pymunk(n, sweeps):
+    """The velocities of n balls on one another that would fall with 1, after so many sweeps of pymunk's."""
+    pymunk = pytest.importorskip("pymunk")
+    space = pymunk.Space()
+    space.gravity, space.iterations, space.collision_slop = (0, -1), sweeps, 0.1
+    space.add(pymunk.Segment(space.static_body, (-5, 0), (5, 0), 0))
+    balls = [pymunk.Body(1, 1) for _ in range(n)]
+    for i, ball in enumerate(balls):
+        ball.position = (0, 0.499 + 0.999 * i)  # they overlap, by less than the slop
+        space.add(ball, pymunk.Circle(ball, 0.5))
+    space.step(1e-3)
+    return np.array([ball.velocity.y for ball in balls]) * 1e3
+
+
+@pytest.mark.parametrize("n", [3, 8])
+@pytest.mark.parametrize("sweeps", [1, 2, 7, 40])
+def test_pymunk_does_the_same_sweeps(n, sweeps):
+    """pymunk goes through these contacts from the top down."""
+    known = LCP_PROBLEMS["column"](n)
+    down = np.arange(n)[::-1]
+    A = known.problem.A.toarray()[np.ix_(down, down)]
+    λ = gauss_seidel(LCP(A, known.problem.b[down]), max_iterations=sweeps, tolerance=1e-300).lam[down]
+    above = np.append(λ[1:], 0)
+    assert np.allclose(-1 + λ - above, balls_in_pymunk(n, sweeps), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("frictionless", [True, False])
+def test_the_loop_in_c_gets_the_same(frictionless):
+    loop = c_loop()
+    if loop is None:
+        pytest.skip("there is no C compiler here")
+    problem = lattice(60, frictionless=frictionless).problem
+    for count in (1, 5):
+        λ = gauss_seidel(problem, tolerance=1e-300, max_iterations=count).lam
+        assert np.allclose(loop(problem, count), λ, rtol=1e-12, atol=1e-13)
