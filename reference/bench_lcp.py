@@ -43,8 +43,12 @@ class LcpStudy:
     case: str = "lcp"
 
     def solvers(self, n):
-        """The names of the solvers that are not overtaxed by n rows."""
-        return [name for name in SOLVERS if name in _ROW_BY_ROW or n <= LARGEST.get(name, 1000)]
+        """The names of the solvers of an LCP that are not overtaxed by n rows."""
+        return [
+            name
+            for name in SOLVERS
+            if name in _ROW_BY_ROW or (n <= LARGEST.get(name, 1000) and not name.startswith("cone"))
+        ]
 
     def measure(self, longest, repeats, tell):
         """All measurements, as dictionaries: ``residual`` and ``error`` of λ beside ``cpu_s``."""
