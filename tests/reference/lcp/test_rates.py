@@ -49,12 +49,14 @@ def test_heavy_on_light(ratio):
     assert slowness(measured) == pytest.approx(slowness(ratio / (1 + ratio)), rel=0.02)
 
 
-@pytest.mark.parametrize(("n", "heavy", "counts"), [(10, 1, (493, 166)), (20, 1, (1865, 652))])
+@pytest.mark.parametrize(
+    ("n", "heavy", "counts"), [(10, 1, (493, 166)), (20, 1, (1865, 652)), (10, 100, (10801, 3808))]
+)
 def test_counts_of_the_literature(n, heavy, counts):
     """CASES.md: sweeps to 1e-6, Gauss–Seidel and SOR(1.5)."""
     problem = LCP_PROBLEMS["column"](n, heavy).problem
     assert (
-        tuple(sor(problem, tolerance=1e-6, max_iterations=5000, omega=ω).iterations for ω in (1, 1.5))
+        tuple(sor(problem, tolerance=1e-6, max_iterations=20_000, omega=ω).iterations for ω in (1, 1.5))
         == counts
     )
 
