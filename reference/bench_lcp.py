@@ -1,6 +1,6 @@
 """Residual and error of λ against processor time, for every solver that takes the problem.
 
-``course.py bench lcp`` runs these studies, ``course.py bench lcp/stack/1:1000`` one of them.
+``course.py bench lcp`` runs these studies, ``course.py bench lcp/stack/1000`` one of them.
 
 A solver is a curve: it is given 1, 4, 16 … iterations, until it has solved the problem, says why it can't, or
 takes longer than is granted. What is timed is the whole call. The solvers take turns, and medians count.
@@ -108,15 +108,16 @@ class LcpStudy:
 
     def plot(self, rows, path):
         """Residual and error of λ against seconds, side by side."""
-        from .view import plt
+        from .view.charts import COLOURS, plt
 
         figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True, layout="constrained")
         for chart, quantity in zip(axes, ("residual", "error"), strict=True):
-            for name in dict.fromkeys(row["method"] for row in rows):
+            for k, name in enumerate(dict.fromkeys(row["method"] for row in rows)):
                 points = [(row["cpu_s"], row[quantity]) for row in rows if row["method"] == name]
                 points = [point for point in points if point[1] is not None]
                 seconds, values = zip(*points, strict=True) if points else ((), ())
-                chart.loglog(seconds, np.maximum(values, 1e-16), marker="o", markersize=3, label=name)
+                look = {"color": COLOURS[k % 8], "linestyle": ("-", "--", ":")[k // 8 % 3]}
+                chart.loglog(seconds, np.maximum(values, 1e-16), marker="o", ms=3, label=name, **look)
             chart.set(xlabel="processor time [s]", title=quantity if quantity == "residual" else "error of λ")
         axes[1].legend(fontsize=7, bbox_to_anchor=(1, 1))
         figure.suptitle(self.label)
@@ -133,7 +134,7 @@ def _seconds(problem, solver, most):
 
 
 def _studies():
-    for words, heavy in (("equal", 1), ("1:100", 100), ("1:1000", 1000)):
+    for words, heavy in (("equal", 1), ("100", 100), ("1000", 1000)):
         yield LcpStudy(f"lcp/stack/{words}", LCP_PROBLEMS["column"], {"n": 50, "heavy": heavy})
         yield LcpStudy(f"lcp/chain/{words}", LCP_PROBLEMS["column"], {"n": 50, "heavy": heavy, "chain": True})
     yield LcpStudy("lcp/tower", LCP_PROBLEMS["tower"], {"n": 10, "aspect": 8.0})

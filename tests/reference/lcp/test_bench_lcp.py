@@ -16,7 +16,7 @@ def silent(message):
 
 
 def test_labels():
-    assert set(chosen_labels(["lcp"])) == set(LCP_STUDIES) and "lcp/stack/1:1000" in STUDIES
+    assert set(chosen_labels(["lcp"])) == set(LCP_STUDIES) and "lcp/stack/1000" in STUDIES
     assert chosen_labels(["lcp/sweeps"]) == ["lcp/sweeps"]
 
 
