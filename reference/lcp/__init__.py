@@ -42,11 +42,15 @@ and ``merit.gap`` give r_i.
 Slides S11–S17; lectures/06_pivoting_lcp.md, lectures/07_iterative_lcp.md.
 """
 
+from .dantzig import dantzig
+from .enumeration import enumeration
 from .gauss_seidel import gauss_seidel
+from .lemke import lemke
+from .murty import murty
 from .problem import LCP, ConeProblem
 from .solution import STATUSES, Solution
 
-_METHODS = (gauss_seidel,)
+_METHODS = (enumeration, murty, dantzig, lemke, gauss_seidel)
 SOLVERS = {method.__name__: method for method in _METHODS}
 
 __all__ = ["LCP", "SOLVERS", "STATUSES", "ConeProblem", "Solution", *SOLVERS]

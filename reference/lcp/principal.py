@@ -1,0 +1,259 @@
+"""Principal pivots: row i's two unknowns, λ_i and w_i, only ever change places with each other.
+
+Each row is in one of three places, and a tableau belongs to each choice of them:
+
+    INSIDE   λ_i is basic, w_i = 0         LOWER, UPPER   w_i is basic, λ_i stands at that bound
+
+With y the basic and x the nonbasic unknown of each row, y = T x + q. A method keeps T, x and y; ``swap`` is
+the pivot of a row, ``move`` lets a nonbasic unknown go elsewhere and y follow.
+
+Friction (S17): rows whose bounds are ±μ λ_n are solved with bounds that stand still, which are then set anew
+from the λ_n found, until they are those of that very λ_n. Each pass also tries the equations with the bounds
+moving along, so two or three passes will mostly do; nothing says that they must come to an end.
+
+Slides S13, S14, S17; lectures/06_pivoting_lcp.md. Source: Cottle, Pang & Stone, The Linear Complementarity
+Problem (2009), chapter 4.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..compiled import compiled
+from .iteration import checked, solved_already, unsuitable
+from .pivoting import INSIDE, LOWER, UPPER, proves_infeasible, refined, scaled, why_not
+from .solution import MAX_ITERATIONS, RAY, SOLVED, STATUSES, finish
+from .tableau import Tableau, exchange, exchange_pair
+
+TINY = 1e-11  # relative to the largest of a column: a pivot below that is taken for 0
+SLACK = 1e-12  # λ and w off by less, relative to the largest λ, are taken for right
+_PASSES = 50  # over the friction bounds
+
+
+class State(NamedTuple):
+    """Where a method is, as arrays that its kernel changes in place."""
+
+    T: np.ndarray  # (n, n)
+    y: np.ndarray  # (n,) λ_i of the rows INSIDE, w_i of the others
+    x: np.ndarray  # (n,) w_i of the rows INSIDE, λ_i of the others
+    place: np.ndarray  # (n,) INSIDE, LOWER or UPPER
+    lower: np.ndarray
+    upper: np.ndarray
+    at: np.ndarray  # (3,) the row being driven or −1, pivots since ``saved``, pivots until it is renewed
+    saved: np.ndarray  # (n + 1,) where the method was some pivots ago, to notice that it comes back
+
+
+@compiled(inline=False)
+def swap(state, i):
+    """The principal pivot of row i: λ_i and w_i change places, and nothing moves."""
+    exchange(state.T, i, i)
+    state.y[i], state.x[i] = state.x[i], state.y[i]
+
+
+@compiled(inline=False)
+def swap_pair(state, i, j):
+    """The principal pivot of rows i and j at once, where T_ii = 0."""
+    exchange_pair(state.T, i, j)
+    for k in (i, j):
+        state.y[k], state.x[k] = state.x[k], state.y[k]
+
+
+@compiled(inline=False)
+def move(state, i, target):
+    """Let the nonbasic unknown of row i go to ``target``, and the basic ones follow."""
+    Δ = target - state.x[i]
+    state.x[i] = target
+    if Δ != 0:
+        for k in range(len(state.y)):
+            state.y[k] += state.T[k, i] * Δ
+
+
+@compiled
+def slack(state):
+    """How far λ or w may be off and still count as right."""
+    largest = 1.0
+    for i in range(len(state.y)):
+        largest = max(largest, abs(state.y[i]) if state.place[i] == INSIDE else 0.0)
+    return SLACK * largest
+
+
+@compiled
+def wrong(state, i, slack):
+    """0 where row i is right; −1 where its λ or w is too small, 1 where it is too large."""
+    if state.place[i] == INSIDE:
+        low, high = state.lower[i], state.upper[i]
+        return -1 if state.y[i] < low - slack else 1 if state.y[i] > high + slack else 0
+    if state.lower[i] == state.upper[i]:
+        return 0
+    if state.y[i] < -slack and not (state.place[i] == UPPER and state.x[i] == state.upper[i]):
+        return -1
+    if state.y[i] > slack and not (state.place[i] == LOWER and state.x[i] == state.lower[i]):
+        return 1
+    return 0
+
+
+@compiled
+def tiny_in(T, j):
+    """Below this, a number of column j is taken for 0."""
+    largest = 0.1
+    for i in range(len(T)):
+        largest = max(largest, abs(T[i, j]))
+    return TINY * largest
+
+
+@compiled(inline=False)
+def came_back(state, driven):
+    """Whether the method has been just here before: Brent's way, which keeps one place to compare with."""
+    same = state.saved[len(state.y)] == driven
+    for i in range(len(state.y)):
+        same = same and state.saved[i] == state.place[i]
+    state.at[1] += 1
+    if not same and state.at[1] >= state.at[2]:
+        state.at[1], state.at[2] = 0, 2 * state.at[2]
+        state.saved[: len(state.y)] = state.place
+        state.saved[len(state.y)] = driven
+    return same
+
+
+def begin(A, b, lower, upper, λ):
+    """The State in which λ is λ⁰ = clip(0, lower, upper), or where rows strictly inside of λ are INSIDE.
+
+    A row that starts between its bounds counts as LOWER, but isn't right unless its w is 0.
+    """
+    n = len(b)
+    x = np.clip(0.0, lower, upper)
+    place = np.where((x == upper) & (x > lower), UPPER, LOWER)
+    state = State(
+        A.copy(), A @ x + b, x, place, lower.copy(), upper.copy(), np.array([-1, 0, 2]), np.full(n + 1, -1)
+    )
+    for i in np.flatnonzero((λ > lower) & (λ < upper) & (λ != x)):
+        if abs(state.T[i, i]) > TINY * np.abs(state.T[:, i]).max():
+            swap(state, i)
+            place[i] = INSIDE
+            move(state, i, 0.0)
+    return state
+
+
+def answer(state):
+    """λ (n,) of a State."""
+    return np.clip(np.where(state.place == INSIDE, state.y, state.x), state.lower, state.upper)
+
+
+def rebuilt(state, A, b):
+    """The State at the same places with T and y computed afresh, rid of rounding; None where T is no more."""
+    inside = np.flatnonzero(state.place == INSIDE)
+    others = np.flatnonzero(state.place != INSIDE)
+    x = np.where(state.place == INSIDE, 0.0, state.x)
+    T = np.empty_like(A)
+    try:
+        T[np.ix_(inside, inside)] = np.linalg.inv(A[np.ix_(inside, inside)])
+    except np.linalg.LinAlgError:
+        return None
+    inverse, beside = T[np.ix_(inside, inside)], A[np.ix_(others, inside)]
+    T[np.ix_(inside, others)] = -inverse @ A[np.ix_(inside, others)]
+    T[np.ix_(others, inside)] = beside @ inverse
+    T[np.ix_(others, others)] = A[np.ix_(others, others)] + beside @ T[np.ix_(inside, others)]
+    q = b.copy()
+    q[inside] = -inverse @ b[inside]
+    q[others] += beside @ q[inside]
+    y = T @ x + q
+    return state._replace(T=T, x=x, y=y) if np.isfinite(T).all() and np.isfinite(y).all() else None
+
+
+def by_principal_pivots(problem, start, tolerance, max_iterations, kernel, options, record, says):
+    """Run ``kernel(state, most, *options) -> (pivots, code)`` on a problem, and return its Solution.
+
+    says: the sentences for ``unsuitable`` and ``ray``. record: write the tableaux down.
+    """
+    λ, tolerance, most = checked(problem, start, tolerance, max_iterations)
+    done_already = solved_already(problem, λ, tolerance)
+    if done_already:
+        return done_already
+    reason = why_not(problem)
+    if reason:
+        return unsuitable(problem, λ, tolerance, reason)
+    form, done, seen = scaled(problem), 0, []
+    λ = λ if start is not None else problem.origin
+    for _ in range(_PASSES if problem.has_friction else 1):
+        lower, upper = _bounds(form, λ)
+        state = begin(form.A, form.b, lower, upper, λ / form.unit)
+        state, pivots, code = _run(kernel, state, form, most - done, options(form), seen if record else None)
+        done += pivots
+        previous, λ = λ, refined(problem, answer(state) * form.unit, state.place)
+        if code != SOLVED or problem.residual(λ) <= tolerance or done >= most or (λ == previous).all():
+            break
+    if code == SOLVED and problem.has_friction and problem.residual(λ) > tolerance:
+        code, says = MAX_ITERATIONS, {**says, "max_iterations": _FRICTION}
+    proof = _proof(problem, form, state) if code == RAY else None
+    word = "infeasible" if proof else STATUSES[code]
+    return finish(problem, λ, done, word, tolerance, reason=says.get(word), certificate=proof, record=seen)
+
+
+_FRICTION = (
+    "The bounds of friction, set anew from each λ_n found, did not settle: allow more pivots, or take lemke, "
+    "which takes bounds and λ_n as one problem."
+)
+
+
+def _run(kernel, state, form, most, options, seen):
+    """Pivot until it is done, (state, pivots, code); with ``seen`` one at a time, each tableau appended."""
+    done, fresh = 0, 0
+    if seen is not None:
+        seen.append(written(state, form, "at first"))
+    with np.errstate(all="ignore"):
+        while True:
+            before = state.place.copy()
+            pivots, code = kernel(state, most - done if seen is None else min(1, most - done), *options)
+            done += pivots
+            if seen is not None and pivots:
+                rows = ", ".join(str(i) for i in np.flatnonzero((before == INSIDE) != (state.place == INSIDE)))
+                seen.append(written(state, form, f"pivot {done}: row {rows or '-'}"))
+                if code == MAX_ITERATIONS and done < most:
+                    continue
+            if code == MAX_ITERATIONS or fresh == 3:
+                return state, done, code
+            again = rebuilt(state, form.A, form.b)  # what looks done may be rounding
+            if again is None or not _still_wrong(again):
+                return state if again is None else again, done, code
+            if code != SOLVED and fresh:
+                return state, done, code
+            state, fresh = again, fresh + 1
+            state.at[0] = -1
+
+
+def _still_wrong(state):
+    tolerance = 100 * slack(state)
+    return any(wrong(state, i, tolerance) for i in range(len(state.y)))
+
+
+def _bounds(form, λ):
+    """The bounds, those of friction being the ones of this λ."""
+    if not len(λ):
+        return form.lower, form.upper
+    most = form.mu * np.maximum(λ[form.normal] / form.unit[form.normal], 0)
+    friction = form.normal >= 0
+    return np.where(friction, -most, form.lower), np.where(friction, most, form.upper)
+
+
+def _proof(problem, form, state):
+    """What proves that there is no solution, from the direction in which λ ran off; None where it doesn't."""
+    d = state.at[0]
+    if d < 0:
+        return None
+    along = np.where(state.place == INSIDE, state.T[:, d], 0.0)
+    along[d] = 1.0 if state.place[d] != INSIDE else along[d]
+    for y in (along * form.unit, -along * form.unit):
+        y = np.where(np.abs(along) > TINY * np.abs(along).max(), y, 0.0)
+        if proves_infeasible(problem, y):
+            return {"y": y}
+    return None
+
+
+def written(state, form, note):
+    """The Tableau of a state, in the problem's own units."""
+    inside = state.place == INSIDE
+    rows = [f"{'λ' if i else 'w'}_{k}" for k, i in enumerate(inside)]
+    columns = [f"{'w' if i else 'λ'}_{k}" for k, i in enumerate(inside)]
+    of_row = np.where(inside, form.unit, 1 / form.weight)
+    of_column = np.where(inside, 1 / form.weight, form.unit)
+    return Tableau(rows, columns, state.T * of_row[:, None] / of_column, state.y * of_row, note)
