@@ -116,7 +116,7 @@ def in_cone(M, q, positive):
         inverse = np.linalg.inv(C)
     except np.linalg.LinAlgError:
         inverse = np.full(C.shape, np.inf)
-    if np.abs(inverse).max() * np.abs(C).max() < _FLAT:
+    if np.isfinite(inverse).all() and np.abs(inverse).max() * np.abs(C).max() < _FLAT:
         sides = inverse @ q
         k = sides.argmin()
         y = inverse[k]
@@ -128,5 +128,5 @@ def in_cone(M, q, positive):
         y = C @ sides - q
     off = np.abs(y) @ np.abs(q) + 1e-300
     apart = y @ q < -_OFF * off and (y @ C).min() >= -_OFF * np.abs(y).max()
-    near = sides.min() >= -_NEAR * np.abs(sides).max() and np.abs(C @ sides - q).max() <= _NEAR
+    near = sides.min() >= -_NEAR * np.abs(sides).max() and np.abs(C @ sides - q).max() <= _NEAR * np.abs(q).max()
     return np.where(positive, np.maximum(sides, 0), 0) if near else None, y if apart else None

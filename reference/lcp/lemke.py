@@ -241,10 +241,10 @@ def _proof(problem, form, parts, T, basic, nonbasic, at):
     z = along[m : 2 * m]
     z[np.abs(z) <= _TINY * np.abs(along).max()] = 0
     y = parts.multipliers(z)
-    free = parts.free
-    if len(free):  # those of the rows solved for follow: they make yᵀA vanish there
-        y[np.isin(np.arange(len(y)), free)] = 0
-        y[free] = np.linalg.lstsq(form.A[np.ix_(free, free)].T, -(y @ form.A)[free], rcond=1e-12)[0]
+    rows, columns = parts.solved
+    if len(rows):  # those of the rows solved for follow: they make yᵀA vanish there
+        y[rows] = 0
+        y[rows] = np.linalg.solve(form.A[np.ix_(rows, columns)].T, -(y @ form.A)[columns])
     y = y * form.weight
     return {"y": y / np.abs(y).max()} if proves_infeasible(problem, y) else None
 

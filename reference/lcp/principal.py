@@ -139,6 +139,12 @@ def answer(state):
     return np.clip(np.where(state.place == INSIDE, state.y, state.x), state.lower, state.upper)
 
 
+def _places(state):
+    """Where each row is (n,); one that never moved and stands between its bounds counts as INSIDE."""
+    at_bound = (state.x == state.lower) | (state.x == state.upper)
+    return np.where((state.place != INSIDE) & ~at_bound, INSIDE, state.place)
+
+
 def rebuilt(state, A, b):
     """The State at the same places with T and y computed afresh, rid of rounding; None where T is no more."""
     inside = np.flatnonzero(state.place == INSIDE)
@@ -179,7 +185,7 @@ def by_principal_pivots(problem, start, tolerance, max_iterations, kernel, optio
         state = begin(form.A, form.b, lower, upper, λ / form.unit)
         state, pivots, code = _run(kernel, state, form, most - done, options(form), seen if record else None)
         done += pivots
-        previous, λ = λ, refined(problem, answer(state) * form.unit, state.place)
+        previous, λ = λ, refined(problem, answer(state) * form.unit, _places(state))
         if code != SOLVED or problem.residual(λ) <= tolerance or done >= most or (λ == previous).all():
             break
     if code == SOLVED and problem.has_friction and problem.residual(λ) > tolerance:

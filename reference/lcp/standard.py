@@ -34,7 +34,7 @@ class Plain(NamedTuple):
     start: np.ndarray  # (n,) λ where z = 0
     change: np.ndarray  # (n, m) of λ with z
     sign: np.ndarray  # (n,) −1 where w is turned round
-    free: np.ndarray  # the rows solved for
+    solved: tuple  # (rows, columns): free rows of the problem solved for the λ of these columns
 
     def lam(self, z):
         """λ (n,) of z (m,), in the scaled units."""
@@ -43,7 +43,7 @@ class Plain(NamedTuple):
     def place(self, basic):
         """Where each row is (n,), from which z are basic (m,)."""
         place = np.full(len(self.start), LOWER)
-        place[self.free] = INSIDE
+        place[self.solved[0]] = place[self.solved[1]] = INSIDE
         place[self.row[basic & (self.kind != 1)]] = INSIDE
         place[self.row[self.kind >= 2]] = INSIDE
         place[self.row[basic & (self.kind == 1)]] = UPPER
@@ -97,7 +97,7 @@ def plain(form):
     kept = np.flatnonzero(~np.concatenate([fixed, np.zeros(len(double), dtype=bool)]))
     if len(kept) < len(row):  # columns of λ that can't change leave, and so do their rows
         T, row, kind, change = T[np.ix_(kept, [*kept, -1])], row[kept], kind[kept], change[:, kept]
-    parts = Plain(T[:, :-1], T[:, -1], row, kind, start, change, sign, free)
+    parts = Plain(T[:, :-1], T[:, -1], row, kind, start, change, sign, (free[:0], free[:0]))
     return _without_free(parts, T, free) if len(free) else parts
 
 
@@ -113,7 +113,7 @@ def _without_free(parts, T, free):
             break
         exchange(T, rows[k], columns[l])
         solved.append((rows.pop(k), columns.pop(l)))
-    used_rows, used_columns = [r for r, _ in solved], [c for _, c in solved]
+    used_rows, used_columns = np.array(solved, dtype=int).reshape(-1, 2).T
     m = len(T)
     keep_rows, keep_columns = (np.setdiff1d(np.arange(m), used) for used in (used_rows, used_columns))
     start = parts.start + parts.change[:, used_columns] @ T[used_rows, -1]
@@ -131,4 +131,5 @@ def _without_free(parts, T, free):
     row = np.concatenate([parts.row[keep_rows], parts.row[split_rows]])
     kind = np.concatenate([parts.kind[keep_rows], np.full(k, 3)])
     kind[last] = 2
-    return parts._replace(M=M, q=q, row=row, kind=kind, start=start, change=change)
+    solved = parts.row[used_rows], parts.row[used_columns]
+    return Plain(M, q, row, kind, start, change, parts.sign, solved)
