@@ -18,8 +18,8 @@ import itertools
 import numpy as np
 import scipy.optimize
 
-from .iteration import checked, unsuitable
-from .pivoting import refined, scaled, why_not
+from .iteration import unsuitable
+from .pivoting import begun, refined, scaled
 from .solution import finish
 from .standard import plain, why_no_plain
 
@@ -47,12 +47,11 @@ def enumeration(problem, start=None, tolerance=1e-10, max_iterations=1000):
     y (k, m), with y · column ≥ 0 for all columns of the cone and y · q < 0.
     Returns a ``Solution``. Raises ValueError or TypeError for bad arguments.
     """
-    λ, tolerance, _ = checked(problem, start, tolerance, max_iterations)
-    reason = why_not(problem, 1000)
-    if reason and problem.residual(problem.origin) == 0:
-        return finish(problem, problem.origin, 0, "solved", tolerance)
-    form = None if reason else scaled(problem)
-    reason = reason or why_no_plain(form)
+    λ, tolerance, _, solution = begun(problem, start, tolerance, max_iterations, 2**10)
+    if solution and (solution.status == "unsuitable" or problem.scale == 0):
+        return solution
+    form = scaled(problem)
+    reason = why_no_plain(form)
     if reason:
         return unsuitable(problem, λ, tolerance, reason)
     parts = plain(form)

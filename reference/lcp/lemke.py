@@ -24,8 +24,8 @@ import numpy as np
 
 from .. import inputs
 from ..compiled import compiled
-from .iteration import checked, solved_already, unsuitable
-from .pivoting import proves_infeasible, refined, scaled, why_not
+from .iteration import unsuitable
+from .pivoting import begun, proves_infeasible, refined, scaled
 from .solution import CYCLE, MAX_ITERATIONS, RAY, SOLVED, STATUSES, finish
 from .standard import plain, why_no_plain
 from .tableau import Tableau, exchange
@@ -154,21 +154,19 @@ def lemke(
     Solves it for P-matrices and, if it can be solved at all, for copositive-plus A, such as J M⁻¹ Jᵀ. A is
     made dense. Returns a ``Solution``. Raises ValueError or TypeError for bad arguments.
     """
-    λ, tolerance, most = checked(problem, start, tolerance, max_iterations)
     inputs.choice("ties", ties, ("first", "lexicographic"))
+    λ, tolerance, most, solution = begun(problem, start, tolerance, max_iterations)
     c = np.ones(problem.n) if cover is None else inputs.array("cover", cover, (problem.n,))
     if (c < 0).any():
         raise ValueError(f"cover must be at least 0, but holds {c.min():g}")
-    done_already = solved_already(problem, λ, tolerance)
-    if done_already:
-        return done_already
-    reason = why_not(problem)
-    form = None if reason else scaled(problem)
-    reason = reason or why_no_plain(form)
+    if solution:
+        return solution
+    form = scaled(problem)
+    reason = why_no_plain(form)
     if reason:
         return unsuitable(problem, λ, tolerance, reason)
     parts = plain(form)
-    c = np.where(parts.kind == 1, 1.0, (c * form.weight)[parts.row] / max((c * form.weight).max(), 1e-300))
+    c = np.where(parts.kind == 1, 1.0, (c * (form.weight / form.weight.max()))[parts.row])
     bare = np.flatnonzero((c == 0) & (parts.q < 0))
     if len(bare):
         i = parts.row[bare[0]]
@@ -197,9 +195,8 @@ def _solve(problem, form, parts, c, tolerance, most, lexicographic, record):
         if code == RAY:
             proof = _proof(problem, form, parts, *path)
         word = "infeasible" if proof else STATUSES[code]
-        solution = finish(
-            problem, λ, done, word, tolerance, reason=_SAYS.get(word), certificate=proof, record=seen
-        )
+        ends = {"reason": _SAYS.get(word), "history": [1.0, 0.0] if done else [0.0]}  # the start is λ⁰
+        solution = finish(problem, λ, done, word, tolerance, certificate=proof, record=seen, **ends)
         if solution.status not in ("ray", "diverged"):
             break
     return solution

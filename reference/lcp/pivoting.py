@@ -20,6 +20,7 @@ import numpy as np
 import scipy.sparse
 
 from ..factored import Factored
+from .iteration import checked, solved_already, unsuitable
 from .problem import LCP
 
 LARGEST = 3000  # rows: a tableau of as many is 72 MB, and takes minutes
@@ -59,18 +60,33 @@ def why_not(problem, largest=LARGEST):
     return ""
 
 
+def begun(problem, start, tolerance, max_iterations, largest=LARGEST):
+    """(λ, tolerance, max_iterations, Solution or None): arguments checked; the Solution where all is said.
+
+    Raises ValueError or TypeError, which name the argument.
+    """
+    λ, tolerance, most = checked(problem, start, tolerance, max_iterations)
+    solution = None
+    if start is not None or problem.scale == 0:  # else λ is λ⁰, which is no solution
+        solution = solved_already(problem, λ, tolerance)
+    reason = "" if solution else why_not(problem, largest)
+    return λ, tolerance, most, unsuitable(problem, λ, tolerance, reason) if reason else solution
+
+
 def scaled(problem):
     """The Scaled form of an LCP."""
     A = dense(problem.A)
     row, column = _equilibrated(A)
     with np.errstate(all="ignore"):
-        size = np.abs(row * problem.w(problem.origin)).max(initial=0)
+        w = problem.w(problem.origin) if problem.origin.any() else problem.b
+        size = np.abs(row * w).max(initial=0)
         beta = _power_of_two(1 / size) if 0 < size < np.inf else 1.0
         unit = column / beta
         lower, upper = problem.lower / unit, problem.upper / unit
     normal, mu = problem.terms.normal, problem.terms.mu
     mu = mu * np.where(normal >= 0, unit[normal], 1) / unit if problem.n else mu
-    A *= row[:, None] * column
+    if (row != 1).any() or (column != 1).any():
+        A *= row[:, None] * column
     return Scaled(A, beta * row * problem.b, lower, upper, normal, mu, unit, beta * row)
 
 
@@ -108,22 +124,26 @@ def refined(problem, λ, place):
     place (n,): INSIDE, LOWER or UPPER. A friction row at a bound moves with its normal's λ. Where the
     equations are singular, the nearest of their solutions. The λ given, where that is the better one.
     """
-    low, high = problem.bounds(λ)
+    low, high = bounds(problem, λ)
     guess = np.clip(np.where(place == LOWER, low, np.where(place == UPPER, high, λ)), low, high)
     best, least = guess, problem.residual(guess)
     free = np.flatnonzero(place == INSIDE)
-    if len(free) and least > 0:
-        for _ in range(2):
-            with np.errstate(all="ignore"):
-                improved = guess + _correction(problem, guess, place, free)
-                improved = np.clip(improved, *problem.bounds(improved))
-            residual = problem.residual(improved)
-            if not residual < least:
-                break
-            best, least, guess = improved, residual, improved
-            if residual < 1e-14:
-                break
+    for k in range(2):
+        if not len(free) or least <= (0 if k == 0 else 1e-14):
+            break
+        with np.errstate(all="ignore"):
+            improved = guess + _correction(problem, guess, place, free)
+            improved = np.clip(improved, *bounds(problem, improved))
+        residual = problem.residual(improved)
+        if not residual < least:
+            break
+        best, least, guess = improved, residual, improved
     return best
+
+
+def bounds(problem, λ):
+    """The bounds (n,), (n,) at this λ; those that stand still are not copied."""
+    return problem.bounds(λ) if problem.has_friction else (problem.lower, problem.upper)
 
 
 def _correction(problem, λ, place, free):

@@ -20,8 +20,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..compiled import compiled
-from .iteration import checked, solved_already, unsuitable
-from .pivoting import INSIDE, LOWER, UPPER, proves_infeasible, refined, scaled, why_not
+from .pivoting import INSIDE, LOWER, UPPER, begun, proves_infeasible, refined, scaled
 from .solution import MAX_ITERATIONS, RAY, SOLVED, STATUSES, finish
 from .tableau import Tableau, exchange, exchange_pair
 
@@ -171,13 +170,9 @@ def by_principal_pivots(problem, start, tolerance, max_iterations, kernel, optio
 
     says: the sentences for ``unsuitable`` and ``ray``. record: write the tableaux down.
     """
-    λ, tolerance, most = checked(problem, start, tolerance, max_iterations)
-    done_already = solved_already(problem, λ, tolerance)
-    if done_already:
-        return done_already
-    reason = why_not(problem)
-    if reason:
-        return unsuitable(problem, λ, tolerance, reason)
+    λ, tolerance, most, solution = begun(problem, start, tolerance, max_iterations)
+    if solution:
+        return solution
     form, done, seen = scaled(problem), 0, []
     λ = λ if start is not None else problem.origin
     for _ in range(_PASSES if problem.has_friction else 1):

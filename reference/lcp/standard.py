@@ -32,16 +32,18 @@ class Plain(NamedTuple):
     row: np.ndarray  # (m,) the row of the problem that each belongs to
     kind: np.ndarray  # (m,) 0: z of that row; 1: its second pair; 2, 3: the two halves of a split row
     start: np.ndarray  # (n,) λ where z = 0
-    change: np.ndarray  # (n, m) of λ with z
+    change: np.ndarray | None  # (n, m) of λ with z; None: λ is z
     sign: np.ndarray  # (n,) −1 where w is turned round
     solved: tuple  # (rows, columns): free rows of the problem solved for the λ of these columns
 
     def lam(self, z):
         """λ (n,) of z (m,), in the scaled units."""
-        return self.start + self.change @ z
+        return z if self.change is None else self.start + self.change @ z
 
     def place(self, basic):
         """Where each row is (n,), from which z are basic (m,)."""
+        if self.change is None:
+            return np.where(basic, INSIDE, LOWER)
         place = np.full(len(self.start), LOWER)
         place[self.solved[0]] = place[self.solved[1]] = INSIDE
         place[self.row[basic & (self.kind != 1)]] = INSIDE
@@ -72,6 +74,10 @@ def why_no_plain(form):
 def plain(form):
     """The Plain form of a Scaled problem; a problem without bounds but 0 … ∞ is its own."""
     n, friction = len(form.b), form.normal >= 0
+    if not friction.any() and (form.lower == 0).all() and np.isinf(form.upper).all():
+        zero, one = np.zeros(n), np.ones(n)
+        none = np.zeros(0, dtype=int)
+        return Plain(form.A, form.b, np.arange(n), np.zeros(n, dtype=int), zero, None, one, (none, none))
     low, high, normal = form.lower, form.upper, np.where(friction, form.normal, 0)
     turned = ~friction & np.isinf(low) & np.isfinite(high)
     sign = np.where(turned, -1.0, 1.0)
