@@ -23,13 +23,15 @@ def exchange(T, r, s):
 
     T (m, k): the last columns may hold constants. T[r, s] must not be 0.
     """
-    row = T[r] * (-1.0 / T[r, s])  # a copy: were it read from T, no compiler could vectorise the loop
-    row[s] = 1.0 / T[r, s]
+    row, inverse = np.empty(T.shape[1]), 1.0 / T[r, s]  # a copy of the row: read from T, the loop over j
+    for j in range(T.shape[1]):  # below could not be vectorised
+        row[j] = T[r, j] * -inverse
+    row[s] = inverse
     for i in range(T.shape[0]):
         factor = T[i, s]
         if i != r and factor != 0:
             T[i, s] = 0.0
-            for j in range(len(row)):
+            for j in range(T.shape[1]):
                 T[i, j] += factor * row[j]
     T[r] = row
 
