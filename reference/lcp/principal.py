@@ -100,17 +100,26 @@ def tiny_in(T, j):
     return TINY * largest
 
 
+@compiled
+def standing(state, i):
+    """Where row i is, as a number: its place, or 3 where λ_i has never moved from between its bounds."""
+    between = state.x[i] != state.lower[i] and state.x[i] != state.upper[i]
+    return 3 if between and state.place[i] != INSIDE else state.place[i]
+
+
 @compiled(inline=False)
 def came_back(state, driven):
     """Whether the method has been just here before: Brent's way, which keeps one place to compare with."""
-    same = state.saved[len(state.y)] == driven
-    for i in range(len(state.y)):
-        same = same and state.saved[i] == state.place[i]
+    n = len(state.y)
+    same = state.saved[n] == driven
+    for i in range(n):
+        same = same and state.saved[i] == standing(state, i)
     state.at[1] += 1
     if not same and state.at[1] >= state.at[2]:
         state.at[1], state.at[2] = 0, 2 * state.at[2]
-        state.saved[: len(state.y)] = state.place
-        state.saved[len(state.y)] = driven
+        for i in range(n):
+            state.saved[i] = standing(state, i)
+        state.saved[n] = driven
     return same
 
 
