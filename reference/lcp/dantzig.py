@@ -206,7 +206,7 @@ def dantzig(problem, start=None, tolerance=1e-10, max_iterations=1000, *, order=
     """
     inputs.choice("order", order, ("index", "worst"))
 
-    def options(form):
-        return turns(form), order == "worst", form.normal, form.mu
+    def options(form, k):  # in the first pass the bounds of friction are set when their turn comes
+        return turns(form), order == "worst", form.normal if k == 0 else np.full(len(form.b), -1), form.mu
 
     return by_principal_pivots(problem, start, tolerance, max_iterations, drive, options, record, _SAYS)

@@ -61,5 +61,5 @@ def murty(problem, start=None, tolerance=1e-10, max_iterations=1000, *, record=F
     dense. Returns a ``Solution``. Raises ValueError or TypeError for bad arguments.
     """
     return by_principal_pivots(
-        problem, start, tolerance, max_iterations, least_index, lambda form: (), record, _SAYS
+        problem, start, tolerance, max_iterations, least_index, lambda form, k: (), record, _SAYS
     )

@@ -177,17 +177,19 @@ def rebuilt(state, A, b):
 def by_principal_pivots(problem, start, tolerance, max_iterations, kernel, options, record, says):
     """Run ``kernel(state, most, *options) -> (pivots, code)`` on a problem, and return its Solution.
 
-    says: the sentences for ``unsuitable`` and ``ray``. record: write the tableaux down.
+    options(form, pass): the tuple of the kernel's own arguments. says: sentences by status. record: write the
+    tableaux down.
     """
     λ, tolerance, most, solution = begun(problem, start, tolerance, max_iterations)
     if solution:
         return solution
     form, done, seen = scaled(problem), 0, []
     λ = λ if start is not None else problem.origin
-    for _ in range(_PASSES if problem.has_friction else 1):
+    for k in range(_PASSES if problem.has_friction else 1):
         lower, upper = _bounds(form, λ)
         state = begin(form.A, form.b, lower, upper, λ / form.unit)
-        state, pivots, code = _run(kernel, state, form, most - done, options(form), seen if record else None)
+        given = options(form, k)
+        state, pivots, code = _run(kernel, state, form, most - done, given, seen if record else None)
         done += pivots
         previous, λ = λ, refined(problem, answer(state) * form.unit, _places(state))
         if code != SOLVED or problem.residual(λ) <= tolerance or done >= most or (λ == previous).all():
