@@ -9,13 +9,14 @@ from tqdm import tqdm
 
 from .compiled import COMPILED, cache_directory
 from .integrators import INTEGRATORS
+from .joints import Distance
 from .scene import Scene
 from .shapes import Point
 from .simulators import Simulation
 
 
 def main():
-    """Run one step with each integrator; a file in the cache's folder remembers that it was done."""
+    """Run one step with each integrator, and one with a joint; a file in the cache's folder remembers it."""
     folder = cache_directory() if COMPILED else None
     if folder is None or (folder / "complete").exists():
         return
@@ -23,6 +24,8 @@ def main():
     scene.add(Point())
     for name in tqdm(INTEGRATORS, desc="compiling the reference, once", unit="integrator"):
         Simulation(scene, 0.1, integrator=name).step()
+    scene.join(Distance(0, point_b=(0, 0, 1)))
+    Simulation(scene, 0.1).step()
     (folder / "complete").touch()
 
 

@@ -61,6 +61,7 @@ class System(NamedTuple):
     fixed_masses: np.ndarray  # (p,) kg, static bodies that attract
     fixed_positions: np.ndarray  # (p, d) m
     velocity_dependent: bool  # whether a force depends on v or ω
+    mechanism: object = None  # the joints (``mechanism.Mechanism``), or None, where there are none
 
 
 @compiled

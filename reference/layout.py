@@ -9,7 +9,7 @@ import numpy as np
 
 from .bodies import System, make_state
 from .inertia import principal_axes
-from .rotation import conjugate, multiply, over_arrays, rotate, rotate_in_plane
+from .rotation import conjugate, multiply, over_arrays, rotate, rotate_back, rotate_in_plane
 from .shapes import Point
 
 
@@ -22,6 +22,7 @@ class Bodies:
 
     def __init__(self, scene):
         bodies, self.dimension = scene.bodies, scene.dimension
+        self.declared, self.joints = bodies, scene.joints
         moving = [i for i, body in enumerate(bodies) if not body.static]
         rotating = [i for i in moving if not isinstance(bodies[i].shape, Point)]
         self.rotating = np.array(rotating, dtype=int)
@@ -51,14 +52,25 @@ class Bodies:
         state = make_state(len(self.moving), len(self.rotating), self.dimension)
         state.x[:] = (self.position if position is None else position)[self.moving]
         state.v[:] = (self.velocity if velocity is None else velocity)[self.moving]
-        q = (self.orientation if orientation is None else orientation)[self.rotating]
-        state.q[:] = over_arrays(multiply)(q, self.principal) if self.dimension == 3 else q[:, None]
+        state.q[:] = self._principal_frames(self.orientation if orientation is None else orientation)
         spin = self.angular_velocity if angular_velocity is None else angular_velocity
         state.ω[:] = spin[self.rotating].reshape(state.ω.shape)
         if self.dimension == 3:
             in_principal = over_arrays(rotate)(over_arrays(conjugate)(state.q), state.ω)
             state.L[:] = over_arrays(rotate)(state.q, self.moments * in_principal)
         return state
+
+    def pack(self, position, orientation):
+        """Records y (T, size) of position (T, n, d) and orientation (T, n, 4) or (T, n), at rest."""
+        T, state = len(position), make_state(len(self.moving), len(self.rotating), self.dimension)
+        x, q = position[:, self.moving], self._principal_frames(orientation)
+        return np.concatenate([x.reshape(T, -1), q.reshape(T, -1), np.zeros((T, state.u.size))], axis=1)
+
+    def _principal_frames(self, orientation):
+        """q of the State from orientation (…, n, 4) or (…, n)."""
+        if self.dimension == 2:
+            return orientation[..., self.rotating, None]
+        return over_arrays(multiply)(orientation[..., self.rotating, :], self.principal)
 
     def unpack(self, y):
         """Position (T, n, d), orientation (T, n, 4) or (T, n), velocity (T, n, d), angular velocity (T, n, 3)
@@ -109,6 +121,23 @@ class Bodies:
         q = self.orientation[i]
         return turn(q * [1, -1, -1, -1] if self.dimension == 3 else -q, point - self.position[i])
 
+    def fixed_point(self, i, point):
+        """Where a point (d,), in world coordinates at the start, is in body i's principal frame.
+
+        What is fixed to the world (i None) or to a static body stays in world coordinates.
+        """
+        return self.fixed_direction(i, point - self.position[i] if i in self.slot else point)
+
+    def fixed_direction(self, i, direction):
+        """A direction (d,), world coordinates at the start, in body i's principal frame; see fixed_point."""
+        slot = self.slot.get(i, -1)
+        if slot < 0 or slot >= len(self.rotating):
+            return direction
+        if self.dimension == 2:
+            return rotate_in_plane(-self.orientation[i], direction)
+        q = over_arrays(multiply)(self.orientation[i], self.principal[slot])
+        return over_arrays(rotate_back)(q, direction)
+
     def _spring_arrays(self, springs):
         """The System's arrays: what is fixed to a static body is fixed in the world, the rest in
         principal frames.
@@ -116,13 +145,9 @@ class Bodies:
         s, d = len(springs), self.dimension
         slots, points = np.full((s, 2), -1), np.zeros((s, 2, d))
         for row, (spring, ends) in enumerate(zip(springs, self.spring_ends, strict=True)):
-            for k, (i, point) in enumerate(ends):
-                slot = slots[row, k] = self.slot.get(i, -1)
-                if slot < 0:
-                    point = (spring.point_a, spring.point_b)[k]
-                elif d == 3 and slot < len(self.rotating):
-                    point = over_arrays(rotate)(self.principal[slot] * [1, -1, -1, -1], point)
-                points[row, k] = point
+            for k, (i, _) in enumerate(ends):
+                slots[row, k] = self.slot.get(i, -1)
+                points[row, k] = self.fixed_point(i, (spring.point_a, spring.point_b)[k])
         law = np.array([[spring.stiffness, spring.damping, spring.length] for spring in springs]).reshape(
             s, 3
         )

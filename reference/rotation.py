@@ -92,6 +92,24 @@ def cross(a, b):
 
 
 @compiled
+def dot(a, b):
+    """The scalar product a · b."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@compiled
+def plus(a, b):
+    """a + b."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@compiled
+def minus(a, b):
+    """a − b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@compiled
 def quaternion_rate(q, ω):
     """q̇ = E(q) ω = ½ (0, ω) ⊗ q, for ω in the world frame (S9)."""
     return (

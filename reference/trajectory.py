@@ -8,11 +8,13 @@ Slides S9, S18; lectures/02_equation_of_motion.md.
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
 from .forces import potential_energy
 from .layout import Bodies
+from .mechanism import spring_energy, worst_gap
 from .rotation import rotation_matrix
 
 
@@ -67,6 +69,19 @@ class ContactHistory:
         return Contacts(*(array[self.offsets[k] : self.offsets[k + 1]] for array in self.arrays))
 
 
+class JointForces(NamedTuple):
+    """What the joints do at T times, in world axes: on body b of each joint, on a where b is the world.
+
+    force (T, joints, d) N; torque (T, joints, 3) or (T, joints) N m, about the joint's point on that body; λ
+    (T, m) N or N m, in the rows' own frame, rigid rows first, then springs; joint (m,): whose each row is.
+    """
+
+    force: np.ndarray
+    torque: np.ndarray
+    λ: np.ndarray
+    joint: np.ndarray
+
+
 @dataclass(frozen=True)
 class Trajectory:
     """The motion of all n bodies at T times, static ones too, in the order added; world frame, SI units.
@@ -74,7 +89,8 @@ class Trajectory:
     time (T,), from 0; start_time: what the clock showed then, s; position (T, n, d); orientation (T, n, 4) or
     (T, n) in the plane; velocity (T, n, d); angular_velocity (T, n, 3) or (T, n); contacts[k]: ``Contacts``;
     status: "ok", or "diverged", after which there are no more records; reason: a sentence; residual,
-    iterations (T,): of the step's own equation, the worst since the record before; settings: what was chosen.
+    iterations (T,): of the step's own equation, the worst since the record before; settings: what was chosen;
+    find_joint_forces: a function that does, or None.
     """
 
     bodies: Bodies = field(repr=False)
@@ -90,6 +106,7 @@ class Trajectory:
     iterations: np.ndarray = field(default=None, repr=False)
     settings: dict = field(default_factory=dict)
     start_time: float = 0.0
+    find_joint_forces: object = field(default=None, repr=False)
 
     def state(self, k=-1):
         """The ``BodyState`` of record k, by default the last: serves as ``start=`` of another run."""
@@ -97,12 +114,15 @@ class Trajectory:
         return BodyState(self.start_time + float(self.time[k]), *(array[k].copy() for array in arrays))
 
     def energy(self):
-        """Kinetic energy and the potential energy of gravity, springs and gravitation, J: (T,)."""
+        """Kinetic, and potential of gravity, springs (joints' too) and gravitation, J: (T,)."""
         kinetic = 0.5 * np.square(self.velocity).sum(axis=-1) @ self.bodies.mass
         kinetic = kinetic + 0.5 * (self._spin * self.angular_velocity).reshape(len(self.time), -1).sum(
             axis=-1
         )
-        return kinetic + potential_energy(self.bodies, self.position, self.orientation)
+        potential = potential_energy(self.bodies, self.position, self.orientation)
+        if self.bodies.joints:
+            potential = potential + spring_energy(self.bodies, self.position, self.orientation)
+        return kinetic + potential
 
     def momentum(self):
         """Σ m v, kg m/s: (T, d)."""
@@ -116,8 +136,22 @@ class Trajectory:
         return (np.cross(x, p) + self._spin).sum(axis=1)
 
     def joint_error(self):
-        """The worst gap in any joint, m: (T,); 0 where there is none."""
-        return np.zeros(len(self.time))
+        """The worst gap in any joint, m: (T,); 0 where there is none.
+
+        Angles count as what they open at the end of the longest arm from a centre of mass to a joint.
+        """
+        if not self.bodies.joints:
+            return np.zeros(len(self.time))
+        return worst_gap(self.bodies, self.position, self.orientation)
+
+    def joint_forces(self):
+        """What the joints do at each record: a ``JointForces``. Computed when asked for, from the motion.
+
+        Raises ValueError for a run that can't tell, such as an engine's.
+        """
+        if self.find_joint_forces is None:
+            raise ValueError("joint_forces() needs a run of this course's simulators, not an engine's")
+        return self.find_joint_forces()
 
     def penetration(self):
         """The depth of the deepest contact, m: (T,); 0 where there is none."""

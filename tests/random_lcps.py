@@ -16,7 +16,7 @@ KINDS = ("whole", "semidefinite", "nonnegative", "p", "real", "singular")
 
 
 def parts(seed, largest=4):
-    """(A, b, lower, upper, friction, kind): n ≤ largest; singular, degenerate, ambiguous, unsolvable ones too."""
+    """(A, b, lower, upper, friction, kind): n ≤ largest; singular, ambiguous, unsolvable ones too."""
     random = np.random.default_rng(seed)
     n, kind = random.integers(0, largest + 1), KINDS[random.integers(len(KINDS))]
     A, b = matrix(random, n, kind), random.integers(-3, 4, n).astype(float)

@@ -28,10 +28,11 @@ NOTEBOOKS = sorted(path.name for path in ROOT.glob("notebooks/[0-9]*.ipynb"))
 PAGES = sorted(path.name for path in ROOT.glob("lectures/[0-9]*.md"))
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 DRIVER = shutil.which("chromedriver")
-PATIENCE = 300      # seconds for one notebook, on a busy machine with nothing compiled yet
+PATIENCE = 300  # seconds for one notebook, on a busy machine with nothing compiled yet
 
 pytestmark = [
     pytest.mark.browser,
+    pytest.mark.xdist_group("browser"),     # one server, one browser
     pytest.mark.skipif(not (CHROMIUM and DRIVER), reason="chromium or chromedriver is not installed"),
 ]
 
@@ -43,10 +44,20 @@ def course(tmp_path_factory):
     ignored = shutil.ignore_patterns(".*", "work", "build", "__pycache__", "tests")
     shutil.copytree(ROOT, folder, ignore=ignored)
     (folder / "notebooks").mkdir(exist_ok=True)
-    cell = {"cell_type": "code", "id": "where", "metadata": {}, "outputs": [], "execution_count": None,
-            "source": "import sys, reference\nprint(sys.executable)\nprint(reference.__file__)"}
-    foreign = {"nbformat": 4, "nbformat_minor": 5, "cells": [cell],
-               "metadata": {"kernelspec": {"name": "elsewhere", "display_name": "Elsewhere"}}}
+    cell = {
+        "cell_type": "code",
+        "id": "where",
+        "metadata": {},
+        "outputs": [],
+        "execution_count": None,
+        "source": "import sys, reference\nprint(sys.executable)\nprint(reference.__file__)",
+    }
+    foreign = {
+        "nbformat": 4,
+        "nbformat_minor": 5,
+        "cells": [cell],
+        "metadata": {"kernelspec": {"name": "elsewhere", "display_name": "Elsewhere"}},
+    }
     (folder / "notebooks" / "99_foreign.ipynb").write_text(json.dumps(foreign), encoding="utf-8")
     return folder
 
@@ -64,9 +75,13 @@ def address(course, tmp_path_factory):
     log = home / "log"
     with log.open("w") as output:
         server = subprocess.Popen(
-            [sys.executable, "course.py", "lab", "--no-browser", "--port", str(port)], cwd=course,
-            stdout=output, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-            env=dict(os.environ, COURSE_PYTHON=sys.executable, HOME=str(home), USERPROFILE=str(home)))
+            [sys.executable, "course.py", "lab", "--no-browser", "--port", str(port)],
+            cwd=course,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            env=dict(os.environ, COURSE_PYTHON=sys.executable, HOME=str(home), USERPROFILE=str(home)),
+        )
     try:
         yield wait_for_address(server, log)
     finally:
@@ -75,7 +90,7 @@ def address(course, tmp_path_factory):
 
 
 def wait_for_address(server, log):
-    deadline = time.monotonic() + 2 * PATIENCE      # the loops are compiled first
+    deadline = time.monotonic() + 2 * PATIENCE  # the loops are compiled first
     while time.monotonic() < deadline and server.poll() is None:
         found = re.search(r"http://127\.0\.0\.1:\d+/\S+", log.read_text())
         if found:
@@ -88,9 +103,18 @@ def wait_for_address(server, log):
 def browser(tmp_path_factory):
     options = webdriver.ChromeOptions()
     options.binary_location = CHROMIUM
-    for flag in ("headless=new", "no-sandbox", "disable-gpu", "disable-dev-shm-usage", "no-first-run",
-                 "disable-background-networking", "disable-component-update", "disable-sync",
-                 "window-size=1400,1000", f"user-data-dir={tmp_path_factory.mktemp('chromium')}"):
+    for flag in (
+        "headless=new",
+        "no-sandbox",
+        "disable-gpu",
+        "disable-dev-shm-usage",
+        "no-first-run",
+        "disable-background-networking",
+        "disable-component-update",
+        "disable-sync",
+        "window-size=1400,1000",
+        f"user-data-dir={tmp_path_factory.mktemp('chromium')}",
+    ):
         options.add_argument("--" + flag)
     options.set_capability("goog:loggingPrefs", {"performance": "ALL"})
     driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(executable_path=DRIVER))
@@ -110,15 +134,20 @@ def run_all(browser, address, course, name):
     tab = f"//div[contains(@class,'lm-TabBar-tabLabel') and text()='{name}']"
     wait.until(until.presence_of_element_located((By.XPATH, tab)))
     wait.until(until.presence_of_element_located((By.XPATH, "//*[contains(text(), ') | Idle')]")))
-    for place in ((By.XPATH, "//div[@class='lm-MenuBar-itemLabel' and text()='Run']"),
-                  (By.CSS_SELECTOR, "li[data-command='runmenu:run-all']")):
+    for place in (
+        (By.XPATH, "//div[@class='lm-MenuBar-itemLabel' and text()='Run']"),
+        (By.CSS_SELECTOR, "li[data-command='runmenu:run-all']"),
+    ):
         wait.until(until.element_to_be_clickable(place)).click()
     copy, deadline = course / "work" / "notebooks" / name, time.monotonic() + PATIENCE
     while True:
         time.sleep(1)
         ActionChains(browser).key_down(Keys.CONTROL).send_keys("s").key_up(Keys.CONTROL).perform()
-        cells = [cell for cell in saved_cells(copy)
-                 if cell["cell_type"] == "code" and "".join(cell["source"]).strip()]
+        cells = [
+            cell
+            for cell in saved_cells(copy)
+            if cell["cell_type"] == "code" and "".join(cell["source"]).strip()
+        ]
         if errors(cells) or all(cell["execution_count"] for cell in cells) or time.monotonic() > deadline:
             return cells
 
@@ -126,13 +155,17 @@ def run_all(browser, address, course, name):
 def saved_cells(file):
     try:
         return json.loads(file.read_text(encoding="utf-8"))["cells"]
-    except ValueError:              # in the middle of being saved
+    except ValueError:  # in the middle of being saved
         return saved_cells(file)
 
 
 def errors(cells):
-    return ["\n".join(output["traceback"]) for cell in cells for output in cell["outputs"]
-            if output["output_type"] == "error"]
+    return [
+        "\n".join(output["traceback"])
+        for cell in cells
+        for output in cell["outputs"]
+        if output["output_type"] == "error"
+    ]
 
 
 def test_a_strange_kernel_name_gets_the_courses_kernel(browser, address, course):
@@ -166,7 +199,10 @@ def test_page_opens_as_a_page_with_its_pictures(name, browser, address, course):
 
 def test_nothing_was_asked_of_the_network(browser, address):
     entries = (json.loads(entry["message"])["message"] for entry in browser.get_log("performance"))
-    asked = {urllib.parse.urlsplit(entry["params"]["request"]["url"]) for entry in entries
-             if entry["method"] == "Network.requestWillBeSent"}
+    asked = {
+        urllib.parse.urlsplit(entry["params"]["request"]["url"])
+        for entry in entries
+        if entry["method"] == "Network.requestWillBeSent"
+    }
     hosts = {url.hostname for url in asked if url.scheme in ("http", "https", "ws", "wss")}
     assert hosts == {"127.0.0.1"}

@@ -8,9 +8,8 @@ Slides S4, S9; lectures/02_equation_of_motion.md.
 """
 
 from dataclasses import dataclass
-from functools import partial
 
-from ..compiled import bind, plain
+from ..compiled import bind
 from .euler import explicit_euler, implicit_gyroscopic, symplectic_euler, symplectic_euler_position_first
 from .parts import Work, add_scaled, copy, drift, make_work
 from .runge_kutta import rk4
@@ -53,12 +52,8 @@ class Integrator:
     base: object = None
 
     def bind(self, force):
-        """The step with its force fixed, compiled: ``step(system, t, h, state, work)``."""
+        """The step with its force fixed: ``step(system, t, h, state, work)``, compiled if the force is."""
         return bind(self.step, bind(self.base, force) if self.base else force)
-
-    def partial(self, force):
-        """The same as plain Python, for a force that can't be compiled."""
-        return partial(plain(self.step), partial(plain(self.base), force) if self.base else force)
 
 
 INTEGRATORS = {

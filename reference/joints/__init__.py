@@ -13,13 +13,5 @@ from .row import ANGULAR, DISTANCE, LINEAR, TURN, Row
 
 JOINTS = (BallJoint, Hinge, Slider, Fixed, Universal, Distance)
 
-__all__ = [
-    "ANGULAR",
-    "DISTANCE",
-    "JOINTS",
-    "LINEAR",
-    "TURN",
-    *(kind.__name__ for kind in JOINTS),
-    "Joint",
-    "Row",
-]
+__all__ = ["ANGULAR", "DISTANCE", "JOINTS", "LINEAR", "TURN", "Joint", "Row"]
+__all__ += [kind.__name__ for kind in JOINTS]

@@ -13,17 +13,17 @@ from ..shapes import Point
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Joint:
-    """What all joints have in common.
+    """A joint between the bodies a and b, or between a and the world where b is None.
 
-    a: a body's number; b: another body's, or None, the world. limits: (low, high) of the coordinate, rad or
-    m. motor: (speed, max_force), rad/s and N m or m/s and N; max_force may be inf. stiffness, damping: of a
+    a: a body's number; b: another body's, or None. limits: (low, high) of the coordinate, rad or m.
+    motor: (speed, max_force), rad/s and N m or m/s and N; max_force may be inf. stiffness, damping: of a
     spring and damper along the coordinate, from where it stands at the start (a Distance: from its length),
     N m/rad and N m s or N/m and N s/m. collide: whether the two bodies can collide.
     """
 
     dimensions = (3,)
     coordinate = None  # its name; None: the joint has none
-    springy = False  # whether a spring and damper can act in it
+    carries_points = False  # whether j may be a Point, though the joint turns what can turn
 
     a: int = field(kw_only=False)
     b: int | None = field(default=None, kw_only=False)
@@ -44,46 +44,21 @@ class Joint:
         return self.stiffness > 0 or self.damping > 0
 
     def checked(self, bodies, d):
-        """This joint with its arguments as arrays, for these bodies in d dimensions.
+        """This joint with its arguments as arrays and numbers, for these bodies in d dimensions.
 
         Raises ValueError or TypeError, naming the argument.
         """
-        kind = type(self).__name__
         if d not in self.dimensions:
-            raise ValueError(f"a {kind} stands in space only: in the plane a Hinge does what it does")
-        values = self.geometry(bodies, d)
-        self._check_turning(kind, bodies, values.get("point"), self.ends)
-        for name in ("stiffness", "damping"):
-            values[name] = inputs.number(name, getattr(self, name), least=0)
-            if values[name] and not self.springy:
-                raise ValueError(
-                    f"{name} must be 0 for a {kind}, which has no coordinate, but is {values[name]!r}"
-                )
-        for name in ("limits", "motor"):
-            given = getattr(self, name)
-            if given is not None and self.coordinate is None:
-                raise ValueError(
-                    f"{name} must be None for a {kind}, which has no coordinate, but is {given!r}"
-                )
-        return replace(self, **values, limits=checked_limits(self.limits), motor=checked_motor(self.motor))
+            raise ValueError(f"a {type(self).__name__} stands in space only: in the plane, use a Hinge")
+        joint = replace(self, **self._checked_law())
+        values = joint.geometry(bodies, d)
+        for i in self.ends:
+            joint.check_end(bodies, i, values.get("point"))
+        return replace(joint, **values)
 
     def geometry(self, bodies, d):
-        """The checked points and axes: a dictionary of arrays."""
+        """The checked points and axes: a dictionary of arrays. Raises ValueError or TypeError."""
         return {}
-
-    def _check_turning(self, kind, bodies, point, ends):
-        for i in ends:
-            if i is None or bodies[i].static or not isinstance(bodies[i].shape, Point):
-                continue
-            if self.turns(len(bodies[i].position)):
-                raise ValueError(
-                    f"a {kind} needs bodies that rotate, but body {i} is a Point: use a Distance"
-                )
-            if point is not None and not np.array_equal(point, bodies[i].position):
-                raise ValueError(
-                    f"point must be body {i}'s position {bodies[i].position.tolist()}, since it is a Point, "
-                    f"but is {point.tolist()}"
-                )
 
     def turns(self, d):
         """Whether a row or spring of it turns bodies."""
@@ -94,12 +69,39 @@ class Joint:
         raise TypeError("a kind of joint must define rows(bodies)")
 
     def free_row(self, bodies):
-        """The row of the joint's coordinate, or None; a Distance has none that is free."""
+        """The row of the joint's coordinate, or None where it has none. A Distance's is its only one."""
         return None
+
+    def _checked_law(self):
+        """limits, motor, stiffness and damping, checked; only a joint with a coordinate can have them."""
+        law = {name: inputs.number(name, getattr(self, name), least=0) for name in ("stiffness", "damping")}
+        law |= {"limits": checked_limits(self.limits), "motor": checked_motor(self.motor)}
+        for name, value in law.items():
+            if self.coordinate is None and value not in (0, None):
+                raise ValueError(
+                    f"{name} must be left out for a {type(self).__name__}, which has no coordinate, "
+                    f"but is {value!r}"
+                )
+        return law
+
+    def check_end(self, bodies, i, point=None):
+        """Raises ValueError where body i, a Point, is asked to turn, or to be joined elsewhere than it is."""
+        if i is None or bodies[i].static or not isinstance(bodies[i].shape, Point):
+            return
+        if self.turns(len(bodies[i].position)) and not (self.carries_points and i == self.ends[1]):
+            instead = "let it be b, or the only body" if self.carries_points else "use a Distance"
+            raise ValueError(
+                f"a {type(self).__name__} needs bodies that rotate, but body {i} is a Point: {instead}"
+            )
+        if point is not None and not np.array_equal(point, bodies[i].position):
+            raise ValueError(
+                f"point must be body {i}'s position {bodies[i].position.tolist()}, since it is a Point, "
+                f"but is {point.tolist()}"
+            )
 
 
 def checked_limits(limits):
-    """(low, high), low ≤ 0 ≤ high not asked; None stays None."""
+    """(low, high) with low ≤ high, each finite or not; None stays None. Raises ValueError or TypeError."""
     if limits is None:
         return None
     try:
@@ -113,13 +115,12 @@ def checked_limits(limits):
 
 
 def checked_motor(motor):
-    """(speed, max_force); None stays None."""
+    """(speed, max_force) with max_force ≥ 0 or inf; None stays None. Raises ValueError or TypeError."""
     if motor is None:
         return None
     try:
         speed, max_force = motor
     except (TypeError, ValueError):
         raise TypeError(f"motor must be (speed, max_force), but is {motor!r}") from None
-    return inputs.number("motor's speed", speed), inputs.number(
-        "motor's max_force", max_force, least=0, finite=False
-    )
+    speed = inputs.number("motor's speed", speed)
+    return speed, inputs.number("motor's max_force", max_force, least=0, finite=False)

@@ -1,4 +1,6 @@
-"""The kinds of joint: each a list of rows.
+"""The kinds of joint: each a list of rows, and the row of its coordinate.
+
+Every kind fills in the same methods, which ``Joint`` describes: geometry, turns, rows, free_row.
 
 Slides S5, S6; lectures/03_jacobian.md.
 """
@@ -8,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import inputs
+from ..shapes import Point
 from .joint import Joint
 from .row import ANGULAR, DISTANCE, LINEAR, TURN, Row, frame, linear_rows, parallel_rows, same_orientation
 
@@ -16,19 +19,21 @@ from .row import ANGULAR, DISTANCE, LINEAR, TURN, Row, frame, linear_rows, paral
 class BallJoint(Joint):
     """The two bodies keep a point in common and turn freely about it: 3 rows.
 
-    point (3,): in world coordinates at the start. stiffness and damping act on the rotation of j seen from i.
+    point (3,): in world coordinates at the start.
     """
 
-    springy = True
     point: np.ndarray
 
     def geometry(self, bodies, d):
+        """point, checked."""
         return {"point": inputs.array("point", self.point, (3,))}
 
     def turns(self, d):
-        return self.soft
+        """No: all turning is free."""
+        return False
 
     def rows(self, bodies):
+        """Three LINEAR rows, along the world's axes at the start, which then turn with i."""
         return linear_rows(np.eye(3), self.point, self.point)
 
 
@@ -42,11 +47,11 @@ class Hinge(Joint):
 
     dimensions = (2, 3)
     coordinate = "angle"
-    springy = True
     point: np.ndarray
     axis: np.ndarray = None
 
     def geometry(self, bodies, d):
+        """point and axis, checked; limits too, since in space the angle is known from −π to π only."""
         if d == 2 and self.axis is not None:
             raise ValueError(f"axis must be left out in the plane, but is {self.axis!r}")
         if d == 3 and self.axis is None:
@@ -54,18 +59,23 @@ class Hinge(Joint):
                 "axis must be given in space, the direction about which the hinge turns, but is None"
             )
         axis = None if d == 2 else inputs.direction("axis", self.axis, 3)
+        if d == 3 and self.limits and any(np.pi < abs(limit) < np.inf for limit in self.limits):
+            raise ValueError(f"limits of a Hinge in space must be from −π to π, but are {self.limits!r}")
         return {"point": inputs.array("point", self.point, (d,)), "axis": axis}
 
     def turns(self, d):
+        """In space, and where its angle has a spring, a motor or limits."""
         return d == 3 or self.soft or self.limits is not None or self.motor is not None
 
     def rows(self, bodies):
+        """LINEAR rows for the point; in space two ANGULAR rows for the axis."""
         if self.axis is None:
             return linear_rows(np.eye(2), self.point, self.point)
         e1, e2, e3 = frame(self.axis)
         return [*linear_rows((e1, e2, e3), self.point, self.point), *parallel_rows(e1, e2, e3)]
 
     def free_row(self, bodies):
+        """The TURN about the axis."""
         if self.axis is None:
             return Row(TURN)
         e1, e2, _ = frame(self.axis)
@@ -77,36 +87,45 @@ class Slider(Joint):
     """Body j moves along an axis of i, and does not turn against it: 5 rows, in the plane 2.
 
     axis (d,), of any length: world coordinates at the start. Coordinate: the displacement along it, 0 at the
-    start. Its point is j's centre of mass.
+    start. Its point is j's centre of mass. A Point as j, a bead on a wire, needs no rows that keep an
+    orientation: 2 rows, in the plane 1.
     """
 
     dimensions = (2, 3)
     coordinate = "displacement"
-    springy = True
+    carries_points = True
     axis: np.ndarray
 
     def geometry(self, bodies, d):
+        """axis, checked."""
         return {"axis": inputs.direction("axis", self.axis, d)}
 
     def rows(self, bodies):
-        p, e = bodies[self.ends[1]].position, frame(self.axis)
-        return [*linear_rows(e[:-1], p, p), *same_orientation(e)]
+        """LINEAR rows across the axis, and rows that keep the orientation."""
+        j, e = bodies[self.ends[1]], frame(self.axis)
+        return [*linear_rows(e[:-1], j.position, j.position), *turning_rows(j, e)]
 
     def free_row(self, bodies):
+        """The LINEAR row along the axis."""
         p = bodies[self.ends[1]].position
         return Row(LINEAR, p, p, frame(self.axis)[-1])
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Fixed(Joint):
-    """The two bodies move as one: 6 rows, in the plane 3. Its point is j's centre of mass."""
+    """The two bodies move as one: 6 rows, in the plane 3. Its point is j's centre of mass.
+
+    A Point as j needs no rows that keep an orientation: 3 rows, in the plane 2.
+    """
 
     dimensions = (2, 3)
+    carries_points = True
 
     def rows(self, bodies):
-        p = bodies[self.ends[1]].position
-        e = np.eye(len(p))
-        return [*linear_rows(e, p, p), *same_orientation(e)]
+        """LINEAR rows along the world's axes at the start, and rows that keep the orientation."""
+        j = bodies[self.ends[1]]
+        e = np.eye(len(j.position))
+        return [*linear_rows(e, j.position, j.position), *turning_rows(j, e)]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -121,6 +140,7 @@ class Universal(Joint):
     axis_b: np.ndarray
 
     def geometry(self, bodies, d):
+        """point and axes, checked."""
         axis_a, axis_b = (inputs.direction(n, getattr(self, n), d) for n in ("axis_a", "axis_b"))
         if abs(axis_a @ axis_b) > 1e-9:
             raise ValueError(
@@ -130,6 +150,7 @@ class Universal(Joint):
         return {"point": inputs.array("point", self.point, (d,)), "axis_a": axis_a, "axis_b": axis_b}
 
     def rows(self, bodies):
+        """Three LINEAR rows, and an ANGULAR one between the two axes."""
         on_i, on_j = (self.axis_b, self.axis_a) if self.b is None else (self.axis_a, self.axis_b)
         return [*linear_rows(np.eye(3), self.point, self.point), Row(ANGULAR, e=on_i, c=on_j)]
 
@@ -144,19 +165,19 @@ class Distance(Joint):
 
     dimensions = (2, 3)
     coordinate = "length"
-    springy = True
     point_a: np.ndarray = None
     point_b: np.ndarray = None
     length: float = None
 
     def geometry(self, bodies, d):
+        """point_a, point_b and length, checked and filled in."""
         if self.b is None and self.point_b is None:
             raise ValueError("point_b must be given where b is None, the world, but is None")
         points = {}
         for name, i in (("point_a", self.a), ("point_b", self.b)):
             given = getattr(self, name)
             points[name] = bodies[i].position.copy() if given is None else inputs.array(name, given, (d,))
-            self._check_turning("Distance", bodies, points[name], (i,))
+            self.check_end(bodies, i, points[name])
         apart = float(np.linalg.norm(points["point_b"] - points["point_a"]))
         if apart == 0:
             raise ValueError(
@@ -164,9 +185,12 @@ class Distance(Joint):
                 f"but both are {points['point_a'].tolist()}"
             )
         length = apart if self.length is None else inputs.number("length", self.length, above=0)
+        if self.limits and self.limits[1] <= 0:
+            raise ValueError(f"limits of a Distance must reach above 0, but are {self.limits!r}")
         return {**points, "length": length}
 
     def turns(self, d):
+        """No: it pulls at points."""
         return False
 
     @property
@@ -175,8 +199,15 @@ class Distance(Joint):
         return (self.point_b, self.point_a) if self.b is None else (self.point_a, self.point_b)
 
     def rows(self, bodies):
+        """The DISTANCE row of a rod; none where a spring, a motor or limits take its place."""
         rod = not self.soft and self.limits is None and self.motor is None
         return [self.free_row(bodies)] if rod else []
 
     def free_row(self, bodies):
+        """The DISTANCE row."""
         return Row(DISTANCE, *self.points, length=self.length)
+
+
+def turning_rows(j, e):
+    """Rows that keep body j's orientation against i; none for a Point that moves: it has no orientation."""
+    return [] if isinstance(j.shape, Point) and not j.static else same_orientation(e)

@@ -7,7 +7,7 @@
 Baraff's form takes the rows in order and heeds only those it has done, as if each contact were added to the
 system when its turn comes; so does ODE's world step. ``order="index"`` is that form: rows without bounds
 (joints) first, friction rows last, the bounds of each set when its turn comes, from the λ_n there is by then.
-``order="worst"`` is the classical one: it drives the row that is most wrong and heeds all rows that are right.
+``order="worst"`` is the classical one: it drives the row that is most wrong and heeds all that are right.
 
 Where A is positive semidefinite a pivot T_ii may be 0; then rows i and d are pivoted together.
 
@@ -21,18 +21,19 @@ import numpy as np
 from .. import inputs
 from ..compiled import compiled
 from .pivoting import INSIDE, LOWER, UPPER
-from .principal import by_principal_pivots, came_back, move, slack, swap, swap_pair, tiny_in, wrong
+from .principal import came_back, move, slack, swap, swap_pair, tiny_in, wrong
+from .rounds import by_principal_pivots
 from .solution import CYCLE, MAX_ITERATIONS, RAY, SOLVED, UNSUITABLE
 
 _SAYS = {
     "ray": "A row was driven and nothing stopped it: λ grows for ever and the row never becomes right. A is "
     "not positive definite; there may be no solution, or one that this method can't reach.",
-    "infeasible": "Driving one row, λ grows for ever and w stays wrong. The direction y of λ proves that there "
-    "is no solution: every right w has yᵀw ≥ 0, but yᵀ(A λ + b) < 0 for all λ within their bounds.",
+    "infeasible": "Driving one row, λ grows for ever and w stays wrong. The direction y of λ proves that "
+    "there is no solution: every right w has yᵀw ≥ 0, but yᵀ(A λ + b) < 0 for all λ within their bounds.",
     "unsuitable": "Two rows that should change places are bound to each other by a pivot of 0: A is neither "
     "a P-matrix nor positive semidefinite. Take lemke.",
-    "cycle": "The method came back to the rows it had chosen before, and would go round for ever: the problem "
-    "is degenerate, and A no P-matrix. Take lemke.",
+    "cycle": "The method came back to the rows it had chosen before, and would go round for ever: the "
+    "problem is degenerate, and A no P-matrix. Take lemke.",
 }
 
 
@@ -201,7 +202,7 @@ def dantzig(problem, start=None, tolerance=1e-10, max_iterations=1000, *, order=
     order: "index" drives the rows in order and heeds those it has done (Baraff); "worst" drives the row most
     wrong and heeds all that are right (Cottle & Dantzig). start (n,): its rows strictly between their bounds
     begin with w = 0. One iteration is one pivot, or one row driven from bound to bound. record: the list of
-    ``Tableau`` that it went through. Ends for P-matrices and positive semidefinite A, where A x + b can be
+    ``Tableau`` that it went through. Ends for P-matrices and positive semidefinite A, where w can be
     right at all. A is made dense. Returns a ``Solution``. Raises ValueError or TypeError for bad arguments.
     """
     inputs.choice("order", order, ("index", "worst"))

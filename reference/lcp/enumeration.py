@@ -28,12 +28,12 @@ _OFF, _NEAR, _SAME = 1e-9, 1e-6, 1e-8  # surely apart; worth a look; the same so
 _FLAT = 1e10  # what the inverse may grow to before a cone is taken for flat
 _FOUND = "λ solves the problem. All {cones} cones were tried: {words}"
 _NONE = (
-    "None of the {cones} complementary cones holds q: there is no solution. ``certificate`` has a plane between "
-    "q and each of them."
+    "None of the {cones} complementary cones holds q: there is no solution. ``certificate`` has a plane "
+    "between q and each of them."
 )
 _DOUBT = (
-    "No solution was found, but q lies so near to one of the complementary cones that rounding hides on which "
-    "side: nothing is proved."
+    "No solution was found, but q lies so near to one of the complementary cones that rounding hides on "
+    "which side: nothing is proved."
 )
 
 
@@ -43,8 +43,8 @@ def enumeration(problem, start=None, tolerance=1e-10, max_iterations=1000):
     Finds a solution if there is one. The first found is ``lam``; ``record`` lists all that differ, as λ (n,),
     one for each cone: of solutions that fill a line or more, some points. One iteration is one cone, and
     max_iterations is not heeded: where it would be too many the problem is ``unsuitable``. start is not used.
-    certificate, of an infeasible problem, in scaled units: M, q, and for each cone z_may_be_positive (k, m) and
-    y (k, m), with y · column ≥ 0 for all columns of the cone and y · q < 0.
+    certificate, of an infeasible problem, in scaled units: M, q, and for each cone z_may_be_positive (k, m)
+    and y (k, m), with y · column ≥ 0 for all columns of the cone and y · q < 0.
     Returns a ``Solution``. Raises ValueError or TypeError for bad arguments.
     """
     λ, tolerance, _, solution = begun(problem, start, tolerance, max_iterations, 2**10)
@@ -88,12 +88,14 @@ def _search(problem, form, parts, groups, cones, tolerance):
         if z is None:
             continue
         λ = refined(problem, parts.lam(z) * form.unit, parts.place(positive))
-        if problem.residual(λ) <= tolerance:
-            if not any(np.abs(λ - other).max(initial=0) <= _SAME * np.abs(λ).max(initial=0) for other in found):
-                found.append(λ)
+        known = (np.abs(λ - other).max(initial=0) <= _SAME * np.abs(λ).max(initial=0) for other in found)
+        if problem.residual(λ) <= tolerance and not any(known):
+            found.append(λ)
         nearest = λ if problem.residual(λ) < problem.residual(nearest) else nearest
     if found:
-        words = "it is the only one." if len(found) == 1 else f"there are {len(found)} that differ, see record."
+        words = (
+            "it is the only one." if len(found) == 1 else f"there are {len(found)} that differ, see record."
+        )
         reason = _FOUND.format(cones=cones, words=words)
         return finish(problem, found[0], cones, "solved", tolerance, reason=reason, record=found)
     if all(plane is not None for plane in planes):
@@ -104,7 +106,7 @@ def _search(problem, form, parts, groups, cones, tolerance):
 
 
 def in_cone(M, q, positive):
-    """(z, y): z (m,) if q lies in the cone where z may be ``positive``, or nearly; y (m,) if a plane is between.
+    """(z, y): z (m,) if q lies in, or near, the cone where z may be ``positive``; y (m,) if a plane is between.
 
     The plane: y · column ≥ 0 for all columns of the cone, and y · q < 0. Either is None where it isn't so.
     """
@@ -127,5 +129,7 @@ def in_cone(M, q, positive):
         y = C @ sides - q
     off = np.abs(y) @ np.abs(q) + 1e-300
     apart = y @ q < -_OFF * off and (y @ C).min() >= -_OFF * np.abs(y).max()
-    near = sides.min() >= -_NEAR * np.abs(sides).max() and np.abs(C @ sides - q).max() <= _NEAR * np.abs(q).max()
+    near = (
+        sides.min() >= -_NEAR * np.abs(sides).max() and np.abs(C @ sides - q).max() <= _NEAR * np.abs(q).max()
+    )
     return np.where(positive, np.maximum(sides, 0), 0) if near else None, y if apart else None

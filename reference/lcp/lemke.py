@@ -10,8 +10,8 @@ onward. The path ends where z₀ leaves (solved), or at a ray: nothing stops the
 them can lead round in a circle. The lexicographic rule acts as if q had been q + (ε, ε², …), so small an ε
 that only ties feel it: no vertex comes twice, so the method must end.
 
-**A ray proves something** where M is copositive-plus, as J M⁻¹ Jᵀ is: that there is no solution. The direction
-of the ray is a certificate, which is checked before anything is called infeasible; else it says ``ray``.
+**A ray proves something** where M is copositive-plus, as J M⁻¹ Jᵀ is: that there is no solution. The
+direction of the ray is a certificate, checked before anything is called infeasible; else it says ``ray``.
 
 Bounds and friction are first brought into the plain form (``standard``). The tableau is n × (n + 2): what is
 basic has no column, so a pivot costs half of what it costs where the identity is stored.
@@ -45,7 +45,7 @@ _SAYS = {
 def follow_path(T, basic, nonbasic, at, most, lexicographic, saved):
     """Pivot along the path until z₀ leaves; returns (pivots, code).
 
-    T (m, m + 2): columns of the nonbasic unknowns, then of constants. basic (m,), nonbasic (m + 1,): i is w_i,
+    T (m, m + 2): columns of the nonbasic unknowns, then constants. basic (m,), nonbasic (m + 1,): i is w_i,
     m + i is z_i, 2m is z₀. at (3,): the entering column, then as in ``principal.came_back``. saved (m,).
     """
     m = len(basic)
@@ -253,5 +253,9 @@ def _written(parts, T, basic, nonbasic, at, note):
     names.append("z₀")
     entering = f"; {names[nonbasic[at[0]]]} enters next" if 2 * m in basic or note == "at first" else ""
     return Tableau(
-        [names[i] for i in basic], [names[i] for i in nonbasic], T[:, :-1].copy(), T[:, -1].copy(), note + entering
+        [names[i] for i in basic],
+        [names[i] for i in nonbasic],
+        T[:, :-1].copy(),
+        T[:, -1].copy(),
+        note + entering,
     )

@@ -9,12 +9,13 @@ row's w_i rises with its λ_i. For other matrices it may go round in circles, an
 examples it takes 2ⁿ − 1 pivots.
 
 Slides S13, S14; lectures/06_pivoting_lcp.md. Source: Murty, Opsearch 11 (1974) 123; Cottle, Pang & Stone, The
-Linear Complementarity Problem (2009), section 4.2; for bounds Júdice & Pires, Comput. Oper. Res. 21 (1994) 587.
+Linear Complementarity Problem (2009), chapter 4.
 """
 
 from ..compiled import compiled
 from .pivoting import INSIDE, LOWER, UPPER
-from .principal import by_principal_pivots, came_back, move, slack, swap, tiny_in, wrong
+from .principal import came_back, move, slack, swap, tiny_in, wrong
+from .rounds import by_principal_pivots
 from .solution import CYCLE, MAX_ITERATIONS, SOLVED, UNSUITABLE
 
 _SAYS = {
@@ -53,7 +54,7 @@ def least_index(state, most):
 
 
 def murty(problem, start=None, tolerance=1e-10, max_iterations=1000, *, record=False):
-    """Solve an LCP by Murty's least-index method; bounds, and friction bounds in passes (``principal``).
+    """Solve an LCP by Murty's least-index method; bounds, and friction bounds in passes (``rounds``).
 
     start (n,): its rows strictly between their bounds begin with w = 0; None: none does. One iteration is one
     pivot. record: ``solution.record`` is the list of ``Tableau`` that it went through. For P-matrices it

@@ -128,7 +128,9 @@ def _without_free(parts, T, free):
     split_rows, split_columns = np.array(rows, dtype=int), np.array(columns, dtype=int)
     keep_rows = np.concatenate([np.setdiff1d(keep_rows, split_rows), split_rows])
     keep_columns = np.concatenate([np.setdiff1d(keep_columns, split_columns), split_columns])
-    change = parts.change[:, keep_columns] + parts.change[:, used_columns] @ T[np.ix_(used_rows, keep_columns)]
+    change = (
+        parts.change[:, keep_columns] + parts.change[:, used_columns] @ T[np.ix_(used_rows, keep_columns)]
+    )
     M, q, k = T[np.ix_(keep_rows, keep_columns)], T[keep_rows, -1], len(rows)
     last = slice(len(M) - k, len(M))
     M = np.hstack([M, -M[:, last]])

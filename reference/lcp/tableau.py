@@ -38,7 +38,7 @@ def exchange(T, r, s):
 
 @compiled(inline=False)
 def exchange_pair(T, i, j):
-    """Let rows i and j change places with columns i and j, where T_ii is 0: a principal pivot of order two."""
+    """Let rows i and j change places with columns i and j, where T_ii is 0: two rows pivoted at once."""
     exchange(T, i, j)
     exchange(T, j, i)
     for k in range(T.shape[1]):

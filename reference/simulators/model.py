@@ -7,7 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..choice import choose_solver
 from ..integrators import INTEGRATORS
+from ..layout import Bodies
+from ..mechanism import rigid_rows, soft_rows
+from ..multipliers import MULTIPLIERS
 from ..scene import Scene, Unsupported
 from ..shapes import Point
 
@@ -27,7 +31,7 @@ class Model:
 
     velocities: the length of u; terms: what is computed in each evaluation of the force; absent: what the
     scene does not need, and so is not built; simulator, integrator: what is chosen where the user doesn't
-    say.
+    say, and why; solver: the same for the joints' λ, None without joints; rows: of J that always hold.
     """
 
     dimension: int
@@ -40,6 +44,9 @@ class Model:
     simulator: str
     integrator: str
     why: str
+    solver: str | None = None
+    why_solver: str = ""
+    rows: int = 0
 
     @property
     def operations(self):
@@ -54,6 +61,11 @@ class Model:
             f"{self.moving} moving bodies {where}, {self.rotating} of them rotate, {self.static} static: "
             f"{self.velocities} velocities in u",
             f"simulator {self.simulator}, integrator {self.integrator}: {self.why}",
+            *(
+                [f"solver {self.solver} for the {self.rows} rows of the joints: {self.why_solver}"]
+                if self.solver
+                else []
+            ),
             f"{'term':<24}{'count':>8}{'operations':>12}",
             *(f"{term.name:<24}{term.count:>8}{term.operations:>12}" for term in self.terms),
             f"about {self.operations} operations a step",
@@ -76,11 +88,24 @@ def model(scene):
             f"bodies {i} and {j} could touch, and no simulator here computes contact yet: put bodies that "
             f"should pass through each other in one group, or call scene.pair({i}, {j}, collide=False)"
         )
+    for number, joint in enumerate(scene.joints):
+        if joint.limits is not None or (joint.motor is not None and joint.motor[1] < np.inf):
+            raise Unsupported(
+                f"joint {number}, a {type(joint).__name__}, has limits or a motor of limited force, which "
+                "make an LCP, and no simulator here solves one yet; leave out limits, or give the motor "
+                "max_force=inf"
+            )
     moving = [body for body in scene.bodies if not body.static]
     rotating = [body for body in moving if not isinstance(body.shape, Point)]
     d, m, r = scene.dimension, len(moving), len(rotating)
     present, absent = _terms(scene, m, r)
     integrator, why = _integrator(scene, rotating)
+    solver, why_solver, rows = None, "", 0
+    if scene.joints:
+        bodies = Bodies(scene)
+        rigid = rigid_rows(bodies)
+        solver, why_solver, rows, _, _ = choose_solver(bodies, rigid)
+        present += _joint_terms(bodies, rigid, solver)
     return Model(
         d,
         m,
@@ -92,6 +117,9 @@ def model(scene):
         "smooth",
         integrator,
         why,
+        solver,
+        why_solver,
+        rows,
     )
 
 
@@ -115,8 +143,31 @@ def _terms(scene, m, r):
     return tuple(term for term in candidates if term.count), tuple(absent)
 
 
+def _joint_terms(bodies, rigid, solver):
+    """The terms of the joints. Operations of the solver: products, counted in what it made ready."""
+    m, space = len(rigid.kind), bodies.dimension == 3
+    soft = len(soft_rows(bodies).kind)
+    factor = MULTIPLIERS[solver].prepare(rigid, bodies.system)
+    links, k = len(factor.links), 6 if space else 3
+    products = {
+        "cholesky": m**3 // 3 + 2 * m * m,
+        "minimum_norm": 2 * m**3 + 4 * m * m,
+        "sparse": 2 * links + 4 * len(factor.values),
+        "tree": links * 6 * k**3,
+    }
+    terms = (
+        Term("joints: J and J̇ u", m, m * (180 if space else 45)),
+        Term("joints: A = J M⁻¹ Jᵀ", len(factor.meeting), 2 * k * len(factor.meeting)),
+        Term(f"joints: λ by {solver}", m, products[solver]),
+        Term("joints: springs", soft, soft * (200 if space else 60)),
+    )
+    return tuple(term for term in terms if term.count)
+
+
 def _integrator(scene, rotating):
     """The integrator that suits the scene's forces, and why."""
+    if scene.joints:
+        return "rk4", "constraint forces depend on velocity, so order 4 by Runge–Kutta"
     damped = scene.drags or scene.user_forces or any(spring.damping for spring in scene.springs)
     position_dependent = scene.springs or scene.gravitation
     gyroscopic = scene.dimension == 3 and any(

@@ -8,12 +8,13 @@ from dataclasses import asdict, dataclass, fields, replace
 from .. import inputs
 from ..compiled import COMPILED
 from ..integrators import INTEGRATORS
+from ..multipliers import MULTIPLIERS
 from ..scene import Unsupported
 from .smooth import Smooth
 
 SIMULATORS = {"smooth": Smooth}
 FAMILIES = ("penalty", "impulse", "acceleration_lcp", "velocity_lcp", "reduced", "smooth")  # of S3
-FOR_CONTACT = ("solver", "friction", "impact", "correction")
+FOR_CONTACT = ("friction", "impact", "correction")
 
 
 @dataclass(frozen=True)
@@ -22,8 +23,9 @@ class Settings:
 
     simulator: a family of S3: "smooth", where nothing can touch. integrator: a name in ``INTEGRATORS``.
     iterations, tolerance: limits of an implicit integrator's own Newton iteration. substeps: steps of
-    dt/substeps for each dt. record_every: a record each so many dt, and always at the end. solver, friction,
-    impact, correction, warm_start, record_contacts: for contact; seed: for what is drawn at random.
+    dt/substeps for each dt. record_every: a record each so many dt, and always at the end. solver: of the
+    joints' λ, a name in ``MULTIPLIERS``. friction, impact, correction, warm_start, record_contacts: for
+    contact; seed: for what is drawn at random.
     """
 
     simulator: str | None = None
@@ -59,11 +61,17 @@ class Settings:
                     f"{name}={getattr(given, name)!r} has no effect under {simulator!r}: without contact "
                     "there is nothing for it to do"
                 )
+        solver = needs.solver if given.solver is None else given.solver
+        if needs.solver is not None:
+            inputs.choice("solver", solver, MULTIPLIERS)
+        elif solver is not None:
+            raise Unsupported(f"solver={solver!r} has no effect: without joints there is nothing to solve")
         integrator = needs.integrator if given.integrator is None else given.integrator
         inputs.whole("seed", given.seed)
         return replace(
             given,
             simulator=simulator,
+            solver=solver,
             integrator=inputs.choice("integrator", integrator, INTEGRATORS),
             iterations=30
             if given.iterations is None

@@ -14,6 +14,8 @@ from ..trajectory import BodyState, ContactHistory, Trajectory
 from .model import model
 from .settings import SIMULATORS, Settings
 
+JOINED = 1e-9  # of a mechanism's size: a gap in the joints after a step that is told
+
 
 def simulate(scene, duration, dt, *, start=None, **settings):
     """Run a scene for ``duration`` s in steps of ``dt`` s and return its ``Trajectory``.
@@ -84,9 +86,12 @@ class Simulation:
         finished = self._advance(steps, record[1:], solves[1:])
         kept = int(np.searchsorted(done, finished, side="right"))
         self._tell_unsolved(solves[:kept])
+        self._tell(self._family.note())
+        time = done[:kept] * duration / steps
+        find_forces = partial(self._family.joint_forces, start + time, record[:kept])
         return Trajectory(
             self.bodies,
-            done[:kept] * duration / steps,
+            time,
             *self.bodies.unpack(record[:kept]),
             contacts=ContactHistory.empty(kept, self.bodies.dimension),
             status=self.status,
@@ -95,6 +100,7 @@ class Simulation:
             iterations=solves[:kept, 0].astype(int),
             settings=dict(self.settings),
             start_time=start,
+            find_joint_forces=find_forces,
         )
 
     def _advance(self, steps, record=None, solves=None):
@@ -106,16 +112,19 @@ class Simulation:
             done = self._family.advance(self._origin, self._done, h, wanted, every, record, solves)
         self._done += done
         if done < wanted:
-            self.status = "diverged"
-            self.reason = (
-                f"the state stopped being finite in the step from t = {self.time:.6g} s; {self._remedy}"
-            )
+            self.status, what = self._family.failure() or ("diverged", "the state stopped being finite in")
+            self.reason = f"{what} the step from t = {self.time:.6g} s; {self._remedy}"
         return done // self.substeps
+
+    def _tell(self, what):
+        """Add a sentence to ``reason``, once."""
+        if what and what not in self.reason:
+            self.reason = "; ".join(part for part in (self.reason, what) if part)
 
     def _tell_unsolved(self, solves):
         """Say it in ``reason`` where an implicit step used all its iterations short of its tolerance."""
         worst = solves[:, 1].max()
-        if self.status == "ok" and worst > self.tolerance:
+        if self.status == "ok" and worst > (JOINED if self.bodies.joints else self.tolerance):
             self.reason = (
                 f"some steps stopped at {self.iterations} iterations with a residual up to {worst:.2g}, "
                 f"above the tolerance {self.tolerance:g}"

@@ -1,20 +1,25 @@
-"""The smooth simulator: no contact is possible, so an integrator alone moves the bodies.
+"""The smooth simulator: no contact is possible, so an integrator alone moves the bodies; joints allowed.
 
-``run`` is the whole simulation: it repeats the integrator's step (S9). It is compiled together with the step
+``run`` is the whole simulation: it repeats the step (S9). Where there are joints, each stage of the
+integrator finds their force at the level of accelerations, and after each step positions and velocities are
+projected back onto them. It is compiled together with the step
 and the force; a force that is the user's own Python function makes ``run`` and the step plain Python around
 compiled parts.
 
 Slides S4, S9; lectures/02_equation_of_motion.md.
 """
 
-import functools
-
 import numpy as np
 
-from ..compiled import bind, compiled, plain
+from ..compiled import bind, compiled
+from ..correction import project
+from ..embedding import constrained_force
 from ..forces import external_force, with_user_forces
 from ..integrators import INTEGRATORS, copy, make_work
-from ..trajectory import BodyState
+from ..trajectory import BodyState, JointForces
+from .jointed import Joints
+
+TORN = 1e-6  # of the mechanism's size: a joint error that no projection could mend; the run stops
 
 
 @compiled
@@ -52,6 +57,21 @@ def all_finite(y):
     return total == 0
 
 
+@compiled
+def jointed_step(step, system, t, h, state, work):
+    """A step of S9 with joints: constraint forces, velocities and positions; then what drifted is put back.
+
+    A gap that stays is one that no step may be built on: the state becomes nan, which ends the run.
+    """
+    step(system, t, h, state, work)
+    iterations, gap = project(system, state)
+    work.solve[0] = max(work.solve[0], iterations)
+    work.solve[1] = max(work.solve[1], gap)
+    if gap > TORN:
+        system.mechanism.watch[3] = gap
+        state.y[:] = np.nan
+
+
 class Smooth:
     """A scene made ready to run with one integrator: ``advance`` moves ``state``, and records if told to."""
 
@@ -59,20 +79,23 @@ class Smooth:
         self.bodies, self.state = bodies, bodies.state()
         self.limits = settings.iterations, settings.tolerance
         self.nothing = np.empty((0, self.state.y.size)), np.empty((0, 2))
-        method = INTEGRATORS[settings.integrator]
+        method, self.system, self.joints = INTEGRATORS[settings.integrator], bodies.system, None
+        force = external_force
         if user_forces:
-            step = method.partial(with_user_forces(bodies, tuple(user_forces), self.public_state))
-            self.run = functools.partial(plain(run), step)
+            force = with_user_forces(bodies, tuple(user_forces), self.public_state)
+        if bodies.joints:
+            self.joints = Joints(bodies, settings.solver)
+            self.system = self.joints.system
+            self.run = bind(run, bind(jointed_step, method.bind(bind(constrained_force, force))))
+            self.begin()
         else:
-            self.run = bind(run, method.bind(external_force))
+            self.run = bind(run, method.bind(force))
 
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
         """So many steps of h; see ``run``."""
         if record is None:
             record, solves = self.nothing
-        return self.run(
-            self.bodies.system, self.state, origin, first, h, steps, every, *self.limits, record, solves
-        )
+        return self.run(self.system, self.state, origin, first, h, steps, every, *self.limits, record, solves)
 
     def public_state(self, t, state):
         """The State as a ``BodyState`` of all bodies."""
@@ -83,3 +106,38 @@ class Smooth:
         self.state = self.bodies.state(
             start.position, start.orientation, start.velocity, start.angular_velocity
         )
+        if self.joints:
+            self.begin()
+
+    def begin(self):
+        """Close the joints and take out velocities that they don't allow: steps that take no time.
+
+        The second one finds the joints closed, and so has J for the velocities where they are.
+        """
+        before = self.state.y.copy()
+        if self.advance(0.0, 0, 0.0, 2) < 2:
+            self.joints.refuse_start()
+        self.joints.compare_start(before, self.state)
+
+    def joint_forces(self, times, records):
+        """``JointForces`` at these times, from the records y (T, size): found anew by steps of no time."""
+        if not self.joints:
+            raise ValueError("joint_forces() needs a scene with joints: this one has none")
+        kept, found = self.state, []
+        for t, y in zip(times, records, strict=True):
+            then = self.public_state(t, kept._replace(y=y))
+            self.state = self.bodies.state(
+                then.position, then.orientation, then.velocity, then.angular_velocity
+            )
+            self.advance(t, 0, 0.0, 1)
+            found.append(self.joints.forces(self.state))
+        self.state = kept
+        return JointForces(*(np.array(part) for part in zip(*found, strict=True)), self.joints.rows.joint)
+
+    def failure(self):
+        """The status and reason where ``advance`` ended early."""
+        return self.joints.failure() if self.joints else None
+
+    def note(self):
+        """What must be said of the joints, or ""."""
+        return self.joints.note() if self.joints else ""

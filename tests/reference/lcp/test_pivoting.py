@@ -12,7 +12,7 @@ from reference.lcp import LCP, SOLVERS, dantzig, enumeration, gauss_seidel, lemk
 from reference.lcp.lemke import follow_path
 from reference.lcp.murty import least_index
 from reference.lcp.pivoting import proves_infeasible, scaled
-from reference.lcp.principal import begin
+from reference.lcp.rounds import begin
 from reference.lcp.tableau import exchange, exchange_pair
 
 PIVOTING = enumeration, murty, dantzig, lemke
@@ -55,8 +55,8 @@ def test_first_index_ties_cycle():
 
 
 @pytest.mark.parametrize("method", PIVOTING)
-@pytest.mark.parametrize("name", ["easy", "kostreva", "murty_2_8", "jacobi_fails", "degenerate", "painleve",
-                                  "redundant", "several_solutions", "dragged_block", "heavy_on_light"])  # fmt: skip
+@pytest.mark.parametrize("name", ["easy", "kostreva", "murty_2_8", "jacobi_fails", "degenerate", "painleve", "redundant",
+                                   "several_solutions", "dragged_block", "heavy_on_light"])  # fmt: skip
 def test_known_answers(method, name):
     known = LCP_PROBLEMS[name]()
     solution = method(known.problem)
@@ -222,7 +222,9 @@ def test_no_row_and_one(method, n):
 @pytest.mark.parametrize("method", [murty, dantzig, lemke])
 def test_too_few_pivots_are_told(method):
     solution = method(problem_of("column", n=10), max_iterations=4)
-    assert solution.status == "max_iterations" and solution.iterations == 4 and "allow more" in solution.reason
+    assert (
+        solution.status == "max_iterations" and solution.iterations == 4 and "allow more" in solution.reason
+    )
     assert method(problem_of("column", n=10), max_iterations=0).iterations == 0
 
 

@@ -1,0 +1,11 @@
+# Mistake: a rope that pushes.
+# Loses: rope
+# Says: rope: a rope pulls
+# ruff: noqa: F821 (names that are not defined here are solution_a's)
+
+
+# %%
+def rope(arm_i, arm_j, offset_i, offset_j, ratio, u, tension):
+    n_i, n_j = offset_i / np.linalg.norm(offset_i), offset_j / np.linalg.norm(offset_j)
+    row = np.concatenate([n_i, np.cross(arm_i, n_i), ratio * n_j, ratio * np.cross(arm_j, n_j)])
+    return row @ u, tension * row

@@ -1,0 +1,12 @@
+# Mistake: the ratio is in w, and forgotten in the force.
+# Loses: rope
+# Says: rope: The power on both sides differs
+# ruff: noqa: F821 (names that are not defined here are solution_a's)
+
+
+# %%
+def rope(arm_i, arm_j, offset_i, offset_j, ratio, u, tension):
+    n_i, n_j = offset_i / np.linalg.norm(offset_i), offset_j / np.linalg.norm(offset_j)
+    row = np.concatenate([n_i, np.cross(arm_i, n_i), ratio * n_j, ratio * np.cross(arm_j, n_j)])
+    forces = np.concatenate([n_i, np.cross(arm_i, n_i), n_j, np.cross(arm_j, n_j)])
+    return row @ u, -tension * forces

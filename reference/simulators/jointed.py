@@ -1,0 +1,113 @@
+"""The joints of a run: made ready for a solver, and what is to be told of them.
+
+Slides S8, S9; lectures/04_embedding.md.
+"""
+
+import numpy as np
+
+from ..choice import choose_solver
+from ..joints import DISTANCE, LINEAR
+from ..mechanism import make_mechanism, rigid_rows, soft_rows
+from ..multipliers import MULTIPLIERS
+
+NEAR = 1e-5  # a pivot, over what was there before the elimination: dependent rows are not far
+CHANGED = 1e-9  # relative change of the state at the start that is told
+
+
+class Joints:
+    """The rows of a scene's joints with their solver; ``system`` is the bodies' own with the mechanism."""
+
+    def __init__(self, bodies, solver):
+        rigid, soft = rigid_rows(bodies), soft_rows(bodies)
+        self.bodies, self.solver, self.choice = bodies, solver, choose_solver(bodies, rigid)
+        if self.choice.redundant and solver != "minimum_norm":
+            raise ValueError(
+                f"solver must be 'minimum_norm' here, since {self.choice.redundant} of {self.choice.rows} "
+                f"rows are redundant, but is {solver!r}"
+            )
+        method = MULTIPLIERS[solver]
+        factor = method.prepare(rigid, bodies.system)
+        self.mechanism = make_mechanism(bodies, rigid, soft, method.number, factor)
+        self.system = bodies.system._replace(mechanism=self.mechanism, velocity_dependent=True)
+        self.changed = ""
+
+    @property
+    def rows(self):
+        """All ``Rows``, rigid ones first."""
+        return self.mechanism.rows
+
+    def refuse_start(self):
+        """Raise ValueError: the joints can't all hold at the start."""
+        m = len(self.mechanism.λ)
+        φ = np.abs(self.mechanism.jacobian.φ[:m])
+        if self.mechanism.watch[0] <= 0 or not np.isfinite(φ).all():
+            raise ValueError(
+                "joints must hold at the start, but no position of the bodies was found in which they do: "
+                "the search met one in which they depend on each other"
+            )
+        worst = self.rows.joint[int(np.argmax(φ))]
+        joint = self.bodies.joints[worst]
+        raise ValueError(
+            f"joints must be able to hold at the same time, but joint {worst}, a {type(joint).__name__} of "
+            f"bodies {joint.a} and {joint.b}, stays open by {φ.max():.3g} whatever the bodies do: "
+            "look at lengths and points of the loop that it closes"
+        )
+
+    def compare_start(self, before, state):
+        """Keep in mind whether the state had to be changed at the start."""
+        n = len(before) - len(state.u)
+        moved = np.abs(before[:n] - state.y[:n]).max(initial=0) > CHANGED * self.mechanism.scale
+        pushed = np.abs(before[n:] - state.u).max(initial=0) > CHANGED * np.abs(before[n:]).max(initial=0)
+        told = [("positions", moved), ("velocities", pushed)]
+        names = " and ".join(name for name, is_so in told if is_so)
+        self.changed = (
+            f"{names} at the start did not fit the joints, and were changed as little as the masses allow"
+            if names
+            else ""
+        )
+
+    def failure(self):
+        """(status, reason) of a run that ended, or None, where the joints are not what ended it."""
+        smallest, gap = self.mechanism.watch[0], self.mechanism.watch[3]
+        if smallest <= 1e-14:
+            return (
+                "singular",
+                "the joints came to depend on each other, so that their forces are not unique, in",
+            )
+        if gap > 0:
+            return "torn", f"a joint stayed open by {gap:.2g} of the mechanism's size in"
+        return None
+
+    def note(self):
+        """What must be said of a run: redundant joints, a singular position, a start that was changed."""
+        said = [self.changed] if self.changed else []
+        smallest, least, most, _ = self.mechanism.watch
+        m = len(self.mechanism.λ)
+        if self.solver == "minimum_norm" and least < m:
+            ranks = f"{int(most)}" if least == most else f"{int(least)} to {int(most)}"
+            said.append(
+                f"the joints are redundant: of {m} rows {ranks} are independent. The motion is unique, "
+                "the joints' forces are not: λ is the one with the smallest sum of squares in the rows' own "
+                "frames, which adds up N and N m as if they were one"
+            )
+        if self.choice.loops and (smallest < NEAR or most > least):
+            said.append(
+                f"the joints came near a singular position (smallest pivot {smallest:.1g}), from where more "
+                "than one motion may be possible"
+            )
+        return "; ".join(said)
+
+    def forces(self, state):
+        """(force, torque, λ) of all joints for the state last computed; see ``JointForces``."""
+        mechanism, d, n = self.mechanism, self.bodies.dimension, len(self.bodies.joints)
+        rows, J, m = mechanism.rows, mechanism.jacobian.J, len(mechanism.λ)
+        u = np.zeros((len(state.v) + 1, J.shape[2]))  # the last for the world
+        u[:-1, :d], u[: len(state.ω), d:] = state.v, state.ω
+        w = np.einsum("ksc,ksc->k", J[m:], u[rows.bodies[m:]])
+        soft = -rows.stiffness[m:] * mechanism.jacobian.φ[m:] - rows.damping[m:] * w
+        λ = np.concatenate([mechanism.λ, soft])
+        force, torque = np.zeros((n, d)), np.zeros((n, J.shape[2] - d))
+        np.add.at(force, rows.joint, J[:, 1, :d] * λ[:, None])
+        turning = (rows.kind != LINEAR) & (rows.kind != DISTANCE)
+        np.add.at(torque, rows.joint[turning], J[turning, 1, d:] * λ[turning, None])
+        return force, torque if d == 3 else torque[:, 0], λ
