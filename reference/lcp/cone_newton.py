@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 from .envelope import Envelope, add_block, cholesky_in_envelope, make_envelope, solve_in_envelope
 
 NEAR, SMALLEST = 1e-6, 1e-10  # ε to begin with, and where passes shrink the error too slowly; rounding in λ is 1e-16/ε
@@ -94,7 +94,7 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
     answer = np.zeros((blocks, 2))
     if coulomb:
         evaluate(rows, M, free, λ, np.ones(blocks), shift, u, out)
-        renew_shift(rows, out.w, λ, shift, answer)
+        renew_shift(rows, out.w, shift, answer)
         answer[:, 0], answer[:, 1] = np.inf, 0.0
     ε, error, drift = NEAR, np.inf, np.inf
     for passes in range(max_iterations):
@@ -102,7 +102,7 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
             ρ[q] = 1 / (ε * size[q])
         solve_smooth(rows, M, free, λ, ρ, shift, factor, u, 0.1 * tolerance * scale, out, trial)
         before, drift = drift, renew(rows, out, λ, ρ) / scale
-        shifted = renew_shift(rows, out.w, λ, shift, answer) / scale if coulomb else 0.0
+        shifted = renew_shift(rows, out.w, shift, answer) / scale if coulomb else 0.0
         error = max(drift, shifted)
         if passes < len(history):
             history[passes] = error
@@ -114,7 +114,7 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
     return u, max_iterations, error
 
 
-@compiled(inline=False)
+@compiled_apart
 def block_sizes(rows, M, free, size):
     """A's largest diagonal entry of each block; returns the worst |w| of the free velocities."""
     scale = 0.0
@@ -170,7 +170,7 @@ def over_mass(M, a):
     return (a[0] ** 2 + a[1] ** 2 + a[2] ** 2) / M[0, 0] + turning / determinant
 
 
-@compiled(inline=False)
+@compiled_apart
 def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial):
     """Newton's method for one pass, with step halving: u in place, and what ``evaluate`` finds there into out."""
     value = evaluate(rows, M, free, λ, ρ, shift, u, out)
@@ -220,7 +220,7 @@ def worst_rate(M, gradient):
     return worst
 
 
-@compiled(inline=False)
+@compiled_apart
 def evaluate(rows, M, free, λ, ρ, shift, u, out):
     """The augmented Lagrangian at u, with λ̂, P′ and the gradient into ``out``."""
     value, k = 0.0, u.shape[1]
@@ -306,7 +306,7 @@ def put_slope(slope, r, a, b, c):
     slope[r, 0], slope[r, 1], slope[r, 2] = a, b, c
 
 
-@compiled(inline=False)
+@compiled_apart
 def fill_matrix(rows, M, ρ, out, factor):
     """M + ρ Jᵀ P′ J, block by block."""
     k, envelope, L = M.shape[1], factor.envelope, factor.L
@@ -349,7 +349,7 @@ def renew(rows, out, λ, ρ):
 
 
 @compiled
-def renew_shift(rows, w, λ, shift, answer):
+def renew_shift(rows, w, shift, answer):
     """The shift ← μ|w_t|, which makes the law Coulomb's. Returns the worst change, a velocity.
 
     μ|w_t| answers to a change of the shift, by μ²/(1 + μ²) of it where A is a multiple of 1. ``answer`` (B, 2) holds each contact's shift and
@@ -363,7 +363,7 @@ def renew_shift(rows, w, λ, shift, answer):
         along = 0.0
         for r in range(first + 1, rows.block[q + 1]):
             along += w[r] ** 2
-        new = rows.μ[q] * np.sqrt(along) if λ[first] > 0 else 0.0
+        new = rows.μ[q] * np.sqrt(along)
         change, changed = new - shift[q], shift[q] - answer[q, 0]
         worst = max(worst, abs(change))
         share = (new - answer[q, 1]) / changed if abs(changed) > 1e-12 * abs(new) else 0.0

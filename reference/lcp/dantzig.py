@@ -19,7 +19,7 @@ friction).
 import numpy as np
 
 from .. import inputs
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 from .pivoting import INSIDE, LOWER, UPPER
 from .principal import came_back, move, slack, swap, swap_pair, tiny_in, wrong
 from .rounds import by_principal_pivots
@@ -37,7 +37,7 @@ _SAYS = {
 }
 
 
-@compiled(inline=False)
+@compiled_apart
 def drive(state, most, order, worst, normal, mu):
     """Make one row after the other right, with at most ``most`` pivots; returns (pivots, code).
 
@@ -70,7 +70,7 @@ def drive(state, most, order, worst, normal, mu):
         heeded[d], state.at[0], d, turn = True, -1, -1, turn + 1
 
 
-@compiled(inline=False)
+@compiled_apart
 def most_wrong(state, tolerance):
     """The row that is most wrong, or −1."""
     found, largest = -1, 0.0
@@ -93,7 +93,7 @@ def set_friction(state, i, n, μ):
     state.lower[i] = -state.upper[i]
 
 
-@compiled(inline=False)
+@compiled_apart
 def drive_row(state, d, heeded, most):
     """Drive row d until it is right: (pivots, code), SOLVED if it is."""
     pivots = 0
@@ -122,7 +122,7 @@ def drive_row(state, d, heeded, most):
             return pivots, CYCLE
 
 
-@compiled(inline=False)
+@compiled_apart
 def first_stop(state, d, σ, heeded):
     """(row, step, at_bound): which row first stops the change of row d's nonbasic unknown; row −1: none.
 
@@ -153,7 +153,7 @@ def first_stop(state, d, σ, heeded):
     return row, best, at_bound
 
 
-@compiled(inline=False)
+@compiled_apart
 def change_places(state, d, i, at_bound, σ):
     """Row i has stopped row d: pivot it, and set exactly what it has reached. SOLVED or UNSUITABLE."""
     T, place = state.T, state.place

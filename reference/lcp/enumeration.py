@@ -106,7 +106,7 @@ def _search(problem, form, parts, groups, cones, tolerance):
 
 
 def in_cone(M, q, positive):
-    """(z, y): z (m,) if q lies in, or near, the cone where z may be ``positive``; y (m,) if a plane is between.
+    """(z, y): z (m,) if q lies in or near the cone where z may be ``positive``; y (m,) if a plane parts them.
 
     The plane: y · column ≥ 0 for all columns of the cone, and y · q < 0. Either is None where it isn't so.
     """

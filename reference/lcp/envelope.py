@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 
 
 class Envelope(NamedTuple):
@@ -24,7 +24,7 @@ class Envelope(NamedTuple):
     start: np.ndarray  # (n k + 1,): where row r begins among the values
 
 
-@compiled(inline=False)
+@compiled_apart
 def make_envelope(pairs, n, k):
     """The Envelope for n bodies with k velocities each; pairs (m, 2): bodies that meet; −1: the world."""
     start, other = neighbours(pairs, n)
@@ -84,7 +84,7 @@ def order_bodies(start, other, n):
     return place
 
 
-@compiled(inline=False)
+@compiled_apart
 def breadth_first(start, other, root, queue, place, done):
     """Put all that can be reached from root into the queue after place ``done``; returns the new end."""
     queue[done], place[root] = root, done
@@ -114,7 +114,7 @@ def add_block(envelope, values, i, j, k, row, column, weight):
             values[at + b] += scaled * column[b]
 
 
-@compiled(inline=False)
+@compiled_apart
 def cholesky_in_envelope(envelope, L):
     """L Lᵀ = the matrix, in place, row by row. Returns whether all pivots were positive."""
     first, start = envelope.first, envelope.start
@@ -135,7 +135,7 @@ def cholesky_in_envelope(envelope, L):
     return True
 
 
-@compiled(inline=False)
+@compiled_apart
 def solve_in_envelope(envelope, L, x, out):
     """out (n, k) of L Lᵀ out = x (n, k), both in the order of the bodies."""
     first, start, place = envelope.first, envelope.start, envelope.place

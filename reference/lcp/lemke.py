@@ -23,7 +23,7 @@ Stone, The Linear Complementarity Problem (2009), sections 4.4 and 4.9.
 import numpy as np
 
 from .. import inputs
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 from .iteration import unsuitable
 from .pivoting import begun, proves_infeasible, refined, scaled
 from .solution import CYCLE, MAX_ITERATIONS, RAY, SOLVED, STATUSES, finish
@@ -41,7 +41,7 @@ _SAYS = {
 }
 
 
-@compiled(inline=False)
+@compiled_apart
 def follow_path(T, basic, nonbasic, at, most, lexicographic, saved):
     """Pivot along the path until z₀ leaves; returns (pivots, code).
 
@@ -89,7 +89,7 @@ def first_row(T, s, lexicographic):
     return row
 
 
-@compiled(inline=False)
+@compiled_apart
 def leaving_row(T, basic, nonbasic, s, lexicographic):
     """The row whose unknown is the first to become 0 as that of column s grows from 0; −1 if none is.
 
@@ -114,7 +114,7 @@ def leaving_row(T, basic, nonbasic, s, lexicographic):
     return row
 
 
-@compiled(inline=False)
+@compiled_apart
 def before(T, basic, nonbasic, s, i, r):
     """Whether row i comes before row r in the lexicographic order of their ratios.
 

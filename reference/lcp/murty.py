@@ -12,7 +12,7 @@ Slides S13, S14; lectures/06_pivoting_lcp.md. Source: Murty, Opsearch 11 (1974) 
 Linear Complementarity Problem (2009), chapter 4.
 """
 
-from ..compiled import compiled
+from ..compiled import compiled_apart
 from .pivoting import INSIDE, LOWER, UPPER
 from .principal import came_back, move, slack, swap, tiny_in, wrong
 from .rounds import by_principal_pivots
@@ -26,7 +26,7 @@ _SAYS = {
 }
 
 
-@compiled(inline=False)
+@compiled_apart
 def least_index(state, most):
     """Pivot the first wrong row until there is none, at most ``most`` times; returns (pivots, code)."""
     n = len(state.y)

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 from .pivoting import INSIDE, LOWER, UPPER
 from .tableau import exchange, exchange_pair
 
@@ -36,14 +36,14 @@ class State(NamedTuple):
     saved: np.ndarray  # (n + 1,) where the method was some pivots ago, to notice that it comes back
 
 
-@compiled(inline=False)
+@compiled_apart
 def swap(state, i):
     """The principal pivot of row i: λ_i and w_i change places, and nothing moves."""
     exchange(state.T, i, i)
     state.y[i], state.x[i] = state.x[i], state.y[i]
 
 
-@compiled(inline=False)
+@compiled_apart
 def swap_pair(state, i, j):
     """The principal pivot of rows i and j at once, where T_ii = 0."""
     exchange_pair(state.T, i, j)
@@ -51,7 +51,7 @@ def swap_pair(state, i, j):
         state.y[k], state.x[k] = state.x[k], state.y[k]
 
 
-@compiled(inline=False)
+@compiled_apart
 def move(state, i, target):
     """Let the nonbasic unknown of row i go to ``target``, and the basic ones follow."""
     Δ = target - state.x[i]
@@ -101,7 +101,7 @@ def standing(state, i):
     return 3 if between and state.place[i] != INSIDE else state.place[i]
 
 
-@compiled(inline=False)
+@compiled_apart
 def came_back(state, driven):
     """Whether the method has been just here before: Brent's way, which keeps one place to compare with."""
     n = len(state.y)

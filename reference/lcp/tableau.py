@@ -14,10 +14,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled_apart
 
 
-@compiled(inline=False)
+@compiled_apart
 def exchange(T, r, s):
     """Let the basic unknown of row r and the nonbasic one of column s change places, in place.
 
@@ -36,7 +36,7 @@ def exchange(T, r, s):
     T[r] = row
 
 
-@compiled(inline=False)
+@compiled_apart
 def exchange_pair(T, i, j):
     """Let rows i and j change places with columns i and j, where T_ii is 0: two rows pivoted at once."""
     exchange(T, i, j)
