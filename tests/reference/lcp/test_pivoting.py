@@ -16,8 +16,8 @@ from reference.lcp.rounds import begin
 from reference.lcp.tableau import exchange, exchange_pair
 
 PIVOTING = enumeration, murty, dantzig, lemke
-ANSWERED = "easy kostreva murty_2_8 jacobi_fails degenerate painleve redundant several_solutions".split()
-ANSWERED += ["dragged_block", "heavy_on_light"]
+ANSWERED = ["easy", "kostreva", "murty_2_8", "jacobi_fails", "degenerate", "painleve", "redundant"]
+ANSWERED += ["several_solutions", "dragged_block", "heavy_on_light"]
 
 
 def problem_of(name, **parameters):
