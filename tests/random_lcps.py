@@ -32,7 +32,8 @@ def parts(seed, largest=4):
         A, lower, upper = A / unit, lower * unit, upper * unit
     if random.random() < 0.2:  # other units of w
         unit = 10.0 ** random.integers(-12, 13)
-        A, b = A * unit, b * unit
+        if np.abs(A).sum(axis=1).all():  # a row of zeros has no unit of its own: d = 1 there, by definition
+            A, b = A * unit, b * unit
     return A, b, lower, upper, friction, kind
 
 
@@ -64,12 +65,11 @@ def is_answer(A, b, lower, upper, friction, λ, tolerance=1e-7):
     if not np.isfinite(λ).all():
         return False
     lower, upper = limits(lower, upper, friction, λ)
-    w = A @ λ + b
-    force = np.abs(A) @ np.abs(λ) + np.abs(b)
-    loose_w = tolerance * max(force.max(initial=0), 1e-300)
+    w, peak = A @ λ + b, np.abs(A).max(axis=1, initial=0)
     finite = [np.abs(x[np.isfinite(x)]).max(initial=0) for x in (lower, upper, λ)]
-    weakest = np.abs(A).max(initial=0)
-    loose = tolerance * max(*finite, force.max(initial=0) / weakest if weakest > 0 else 0)
+    force = np.abs(A) @ np.abs(λ) + np.abs(b)
+    loose = tolerance * max(*finite, (force / np.where(peak > 0, peak, np.inf)).max(initial=0))
+    loose_w = np.maximum(tolerance * force, loose * np.where(peak > 0, peak, 1))  # loose in λ, as a w
     if (λ < lower - loose).any() or (λ > upper + loose).any():
         return False
     right = (np.abs(w) <= loose_w) | ((w > 0) & (λ <= lower + loose)) | ((w < 0) & (λ >= upper - loose))

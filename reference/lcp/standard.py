@@ -21,7 +21,7 @@ import numpy as np
 from .pivoting import INSIDE, LOWER, UPPER
 from .tableau import exchange
 
-_TINY = 1e-11
+_TINY, _NOISE = 1e-11, 1e-13
 
 
 class Plain(NamedTuple):
@@ -119,6 +119,7 @@ def _without_free(parts, T, free):
             break
         exchange(T, rows[k], columns[l])
         solved.append((rows.pop(k), columns.pop(l)))
+    T[np.abs(T[:, -1]) <= _NOISE * np.abs(parts.q).max(initial=1), -1] = 0  # else rounding might decide
     used_rows, used_columns = np.array(solved, dtype=int).reshape(-1, 2).T
     m = len(T)
     keep_rows, keep_columns = (np.setdiff1d(np.arange(m), used) for used in (used_rows, used_columns))
