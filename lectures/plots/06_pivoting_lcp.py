@@ -43,12 +43,13 @@ def draw_cones(axes, A, q):
         sides = [(-A[:, i] if letter == "λ" else np.eye(2)[i]) for i, letter in enumerate(name.split())]
         first, second = angle(sides[0]), angle(sides[1])
         start, width = (first, second - first) if (second - first) % 360 <= 180 else (second, first - second)
+        if abs(width % 360 - 180) < 1:
+            continue  # a flat cone: only the line
         wedge = Wedge((0, 0), radius - 0.17 * k, start, start + width % 360, color=colour, alpha=0.45)
         axes.add_patch(wedge)
         middle = np.radians(start + width % 360 / 2)
-        if width % 360 > 1:
-            at = (radius - 0.17 * k) * 0.66 * np.array([np.cos(middle), np.sin(middle)])
-            axes.annotate("$" + name.replace("λ", r"\lambda").replace(" ", r"\,") + "$", at, ha="center")
+        at = (radius - 0.17 * k) * 0.7 * np.array([np.cos(middle), np.sin(middle)])
+        axes.annotate("$" + name.replace("λ", r"\lambda").replace(" ", r"\,") + "$", at, ha="center")
     for i in (0, 1):
         for way, label in ((np.eye(2)[i], f"$e_{i + 1}$"), (-A[:, i], f"$-A_{i + 1}$")):
             way = way / np.linalg.norm(way)
@@ -63,9 +64,9 @@ def cones():
     """Complementary cones in the plane: they tile it, overlap, or leave a gap."""
     figure, panels = plt.subplots(1, 3, figsize=(9.6, 3.5))
     shown = {
-        "P: each $b$ in one cone": ([[2.0, 1], [1, 2]], (-1, -1.2)),
-        "not P: $b$ in three cones": ([[1.0, 2], [2, 1]], (-1, -1)),
-        "semidefinite: $b$ in none": ([[1.0, -1], [-1, 1]], (-1, -1)),
+        "P: each $b$ in one cone": ([[2.0, 1], [1, 2]], (-0.55, -0.6)),
+        "not P: $b$ in three cones": ([[1.0, 2], [2, 1]], (-0.6, -0.6)),
+        "semidefinite: $b$ in none": ([[1.0, -1], [-1, 1]], (-0.8, -0.8)),
     }
     for axes, (title, (A, q)) in zip(panels, shown.items(), strict=True):
         draw_cones(axes, np.array(A), q)
