@@ -1,0 +1,9 @@
+# Mistake: y may be negative.
+# Loses: proves
+# Says: proves: y ≥ 0 is not asked for
+# ruff: noqa: F821 (names that are not defined here are solution_a's)
+
+# %%
+def proves(A, b, y):
+    """Whether y proves that the problem has no solution."""
+    return bool((A.T @ y).max() <= given.SLACK and y @ b < -given.SLACK)
