@@ -45,11 +45,12 @@ def block_pivot(v, constant=-1, beside=-1):
 
 
 def proves(v, sign=True, transposed=True, strict=True):
-    """Which of the three conditions are looked at, and how."""
+    """(word, Aᵀ y): which of the three conditions are looked at, and how."""
     A, b, y = v["A"], v["b"], v["y"]
     force = A.T @ y if transposed else A @ y
     ahead = y @ b < -given.SLACK if strict else y @ b <= given.SLACK
-    return bool((not sign or y.min() >= -given.SLACK) and force.max() <= given.SLACK and ahead)
+    holds = (not sign or y.min() >= -given.SLACK) and force.max() <= given.SLACK and ahead
+    return ("proof" if holds else "no proof"), force
 
 
 def by_rule(v, pick, count=0):
@@ -73,13 +74,13 @@ def least_index(v):
 
 
 def all_at_once(v, alone=False):
-    """(solved, rounds, λ) of pivoting all wrong rows at once, or the first alone."""
+    """(status, rounds, λ) of pivoting all wrong rows at once, or the first alone."""
     inside, seen, rounds = np.zeros(len(v["b"]), dtype=bool), set(), 0
     while True:
         y = values_of(v["A"], v["b"], inside)
         wrong = y < -given.SLACK
         if not wrong.any() or tuple(inside) in seen:
-            return not wrong.any(), rounds, np.where(inside, y, 0.0)
+            return "cycle" if wrong.any() else "solved", rounds, np.where(inside, y, 0.0)
         seen.add(tuple(inside))
         if alone:
             wrong &= np.arange(len(y)) == np.argmax(wrong)

@@ -5,6 +5,7 @@ import numpy as np
 import exercises
 from exercises.grader.check import Case, Check, cause, cause_like
 from exercises.grader.judges import equal, word
+from exercises.grader.replies import Reply
 
 right = exercises.part("06_pivoting_lcp", "answers")
 given = exercises.part("06_pivoting_lcp", "given")
@@ -172,9 +173,10 @@ PROVES = Check(
         ),
     ),
     hidden=lambda stream: list(claims(stream)),
-    judge=word(right.proves),
-    why="True or False; given.SLACK, 1e-9, is for rounding only.",
-    form="True or False",
+    judge=equal(right.proves, 1e-9),
+    why="Aᵀ y is one product: only rounding, about 1e-16, may differ.",
+    form="(status, Aᵀ y): 'proof' or 'no proof', and an array of n",
+    reply=Reply(words=("proof", "no proof")),
     section="The problem, and 2ⁿ ways to solve it",
     causes=(
         cause_like("y ≥ 0 is not asked for.", lambda v: right.proves(v, sign=False)),
@@ -229,7 +231,8 @@ BARD = Check(
 
 def both_ways(stream):
     hard = [
-        drawn(stream, lambda s, b=b: near(s, b), lambda v: not right.all_at_once(v)[0], 1)[0] for b in ROUND
+        drawn(stream, lambda s, b=b: near(s, b), lambda v: right.all_at_once(v)[0] == "cycle", 1)[0]
+        for b in ROUND
     ]
     return [*hard, *drawn(stream, random_p, lambda v: right.all_at_once(v)[1] > 1, 3)]
 
@@ -246,7 +249,8 @@ ALL_AT_ONCE = Check(
     hidden=lambda stream: [Case("a random P-matrix", v) for v in both_ways(stream)],
     judge=equal(right.all_at_once, 1e-9),
     why=ROUNDING,
-    form="(solved, rounds, λ): True or False, a whole number, an array of n",
+    form="(status, rounds, λ): 'solved' or 'cycle', a whole number, an array of n",
+    reply=Reply(words=("solved", "cycle")),
     section="Least index",
     causes=(
         cause_like("Only the first wrong row is pivoted.", lambda v: right.all_at_once(v, alone=True)),
@@ -269,7 +273,7 @@ def telling(v):
 def hard_ones(stream):
     found = []
     for patience, b in PATIENCE:
-        make = lambda s, p=patience, b=b: {**near(s, b), "patience": p}  # noqa: E731 (two captured values)
+        make = lambda s, p=patience, b=b: {**near(s, b), "patience": p}
         found += drawn(stream, make, telling, 1)
     return [*found, *({**v, "patience": 3} for v in drawn(stream, random_p, lambda v: True, 3))]
 
@@ -300,8 +304,8 @@ SAFEGUARDED = Check(
             lambda v: right.safeguarded(v, reset=False),
         ),
     ),
-    hint="Fewer wrong rows than ever: patience is full again, pivot all. Not fewer, and patience left: one less, "
-    "pivot all. None left: pivot the last wrong row alone.",
+    hint="Fewer wrong rows than ever: patience is full again, pivot all. Not fewer, and patience left: one "
+    "less, pivot all. None left: pivot the last wrong row alone.",
 )
 
 CHECKS = (HOLDING_CONES, BLOCK_PIVOT, PROVES, BARD, ALL_AT_ONCE, SAFEGUARDED)

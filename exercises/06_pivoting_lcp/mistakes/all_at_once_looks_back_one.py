@@ -13,4 +13,4 @@ def all_at_once(A, b):
         inside = inside ^ (y < -given.SLACK)
         rounds += 1
         y = basic(A, b, inside)
-    return bool(y.min() >= -given.SLACK), rounds, np.where(inside, y, 0.0)
+    return "cycle" if y.min() < -given.SLACK else "solved", rounds, np.where(inside, y, 0.0)

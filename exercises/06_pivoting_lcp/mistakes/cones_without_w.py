@@ -8,6 +8,6 @@ def holding_cones(A, b):
     """The number of complementary cones in which b lies."""
     count = 0
     for inside in itertools.product([False, True], repeat=len(b)):
-        lam, w = given.solve(A, b, np.array(inside))
+        lam, _ = given.solve(A, b, np.array(inside))
         count += lam.min() >= -given.SLACK
     return int(count)

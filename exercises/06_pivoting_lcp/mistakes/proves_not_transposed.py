@@ -6,4 +6,6 @@
 # %%
 def proves(A, b, y):
     """Whether y proves that the problem has no solution."""
-    return bool(y.min() >= -given.SLACK and (A @ y).max() <= given.SLACK and y @ b < -given.SLACK)
+    force = A @ y
+    holds = y.min() >= -given.SLACK and force.max() <= given.SLACK and y @ b < -given.SLACK
+    return ("proof" if holds else "no proof"), force

@@ -37,7 +37,9 @@ def block_pivot(T, q, rows):
 # %%
 def proves(A, b, y):
     """Whether y proves that the problem has no solution."""
-    return bool(y.min() >= -given.SLACK and (A.T @ y).max() <= given.SLACK and y @ b < -given.SLACK)
+    force = A.T @ y
+    holds = y.min() >= -given.SLACK and force.max() <= given.SLACK and y @ b < -given.SLACK
+    return ("proof" if holds else "no proof"), force
 
 
 # %%
@@ -69,7 +71,7 @@ def all_at_once(A, b):
         inside = inside ^ (y < -given.SLACK)
         rounds += 1
         y = basic(A, b, inside)
-    return bool(y.min() >= -given.SLACK), rounds, np.where(inside, y, 0.0)
+    return "cycle" if y.min() < -given.SLACK else "solved", rounds, np.where(inside, y, 0.0)
 
 
 # %%

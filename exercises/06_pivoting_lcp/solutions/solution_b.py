@@ -56,10 +56,11 @@ def block_pivot(T, q, rows):
 
 # %%
 def proves(A, b, y):
-    for j in range(len(b)):
-        if y[j] < -given.SLACK or sum(y[i] * A[i, j] for i in range(len(b))) > given.SLACK:
-            return False
-    return bool(np.dot(y, b) < -given.SLACK)
+    n = len(b)
+    columns = np.array([sum(y[i] * A[i, j] for i in range(n)) for j in range(n)])
+    if any(y[j] < -given.SLACK or columns[j] > given.SLACK for j in range(n)):
+        return "no proof", columns
+    return "proof" if np.dot(y, b) < -given.SLACK else "no proof", columns
 
 
 # %%
@@ -81,7 +82,7 @@ def all_at_once(A, b):
         wrong = table[:, -1] < -given.SLACK
         again = any(np.array_equal(inside, other) for other in seen)
         if again or not wrong.any():
-            return not wrong.any(), len(seen), table[:, -1] * inside
+            return ("cycle" if wrong.any() else "solved"), len(seen), table[:, -1] * inside
         seen.append(inside)
         table, inside = pivots_of(table, np.flatnonzero(wrong)), inside != wrong
 
