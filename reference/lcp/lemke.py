@@ -13,8 +13,8 @@ that only ties feel it: no vertex comes twice, so the method must end.
 **A ray proves something** where M is copositive-plus, as J M⁻¹ Jᵀ is: that there is no solution. The
 direction of the ray is a certificate, checked before anything is called infeasible; else it says ``ray``.
 
-Bounds and friction are first brought into the plain form (``standard``). The tableau is n × (n + 2): what is
-basic has no column, so a pivot costs half of what it costs where the identity is stored.
+Bounds and friction first take the plain form (``standard``). The tableau is n × (n + 2): basic unknowns have
+no column, so a pivot costs half of what it costs where the identity is stored.
 
 Slides S13, S14; lectures/06_pivoting_lcp.md. Sources: Lemke, Management Science 11 (1965) 681; Cottle, Pang &
 Stone, The Linear Complementarity Problem (2009), sections 4.4 and 4.9.
@@ -176,9 +176,9 @@ def lemke(
 
 def _solve(problem, form, parts, c, tolerance, most, lexicographic, record):
     for every in (1,) if record else (most, 20):  # the second time rid of rounding every so often
-        T, basic, nonbasic = _first_tableau(parts, c)
+        T, basic, nonbasic = path = _first_tableau(parts, c)
         at, saved, done, code, seen = np.array([len(c), 0, 2]), np.full(len(c), -1), 0, MAX_ITERATIONS, []
-        path = T, basic, nonbasic, at
+        path = *path, at
         if not (c.any() and (parts.q < 0).any()):
             code = SOLVED  # nothing to cover: z = 0
         if record:
@@ -225,9 +225,8 @@ def _answer(problem, form, parts, T, basic):
     m = len(basic)
     z = np.zeros(2 * m + 1)
     z[basic] = T[:, -1]
-    on = np.zeros(2 * m + 1, dtype=bool)
-    on[basic] = True
-    return refined(problem, parts.lam(z[m : 2 * m]) * form.unit, parts.place(on[m : 2 * m]))
+    on = np.isin(np.arange(m, 2 * m), basic)
+    return refined(problem, parts.lam(z[m : 2 * m]) * form.unit, parts.place(on))
 
 
 def _proof(problem, form, parts, T, basic, nonbasic, at):
@@ -250,7 +249,7 @@ def _written(parts, T, basic, nonbasic, at, note):
     m = len(basic)
     mark = ("", "'", "+", "-")
     names = [f"{letter}_{i}{mark[k]}" for letter in "wz" for i, k in zip(parts.row, parts.kind, strict=True)]
-    names.append("z₀")
+    names += ["z₀"]
     entering = f"; {names[nonbasic[at[0]]]} enters next" if 2 * m in basic or note == "at first" else ""
     return Tableau(
         [names[i] for i in basic],

@@ -21,7 +21,7 @@ import numpy as np
 from .pivoting import INSIDE, LOWER, UPPER
 from .tableau import exchange
 
-_TINY, _NOISE = 1e-11, 1e-13
+_TINY, _NOISE = 1e-11, 1e-13  # what is taken for 0: a pivot; a q, beside the numbers that it is the sum of
 
 
 class Plain(NamedTuple):
@@ -97,7 +97,9 @@ def plain(form):
     T[:n, :n] = sign[:, None] * form.A * sign
     np.add.at(T[:n, :n].T, normal[t], -form.mu[t, None] * (sign[:, None] * form.A[:, t]).T)
     T[double, n + np.arange(len(double))] = 1
-    T[n:, :n], T[:n, -1], T[n:, -1] = second, sign * (form.A @ start + form.b), room
+    q = form.A @ start + form.b
+    q[np.abs(q) <= _NOISE * (np.abs(form.A) @ np.abs(start) + np.abs(form.b))] = 0
+    T[n:, :n], T[:n, -1], T[n:, -1] = second, sign * q, room
     change = np.hstack([C, np.zeros((n, len(double)))])
     row, kind = np.concatenate([np.arange(n), double]), np.repeat([0, 1], [n, len(double)])
     kept = np.flatnonzero(~np.concatenate([fixed, np.zeros(len(double), dtype=bool)]))
@@ -119,7 +121,7 @@ def _without_free(parts, T, free):
             break
         exchange(T, rows[k], columns[l])
         solved.append((rows.pop(k), columns.pop(l)))
-    T[np.abs(T[:, -1]) <= _NOISE * np.abs(parts.q).max(initial=1), -1] = 0  # else rounding might decide
+    T[np.abs(T[:, -1]) <= _NOISE * np.abs(parts.q).max(initial=1), -1] = 0
     used_rows, used_columns = np.array(solved, dtype=int).reshape(-1, 2).T
     m = len(T)
     keep_rows, keep_columns = (np.setdiff1d(np.arange(m), used) for used in (used_rows, used_columns))
