@@ -2,11 +2,11 @@
 
 A symmetric matrix of n blocks k × k, one block row a body, is kept row by row from its first entry to its
 diagonal, and so is its factor: what lies left of the first entry of a row stays 0. The bodies are put in an
-order (Cuthill and McKee's, reversed) in which those that meet stand near each other: a stack or a chain then has
-bandwidth 1, a wall of bricks that of its shorter side. Cost: n times the bandwidth squared.
+order (Cuthill and McKee's, reversed) in which those that meet stand near each other: a stack or a chain
+then has bandwidth 1, a wall of bricks that of its shorter side. Cost: n times the bandwidth squared.
 
-Slides S8, S14; lectures/08_newton_lcp.md. Source: Cuthill & McKee, Proc. 24th ACM National Conference (1969); George & Liu, Computer
-Solution of Large Sparse Positive Definite Systems (1981), chapter 4.
+Slides S8, S14; lectures/08_newton_lcp.md. Source: Cuthill & McKee, Proc. 24th ACM National Conference
+(1969); George & Liu, Computer Solution of Large Sparse Positive Definite Systems (1981), chapter 4.
 """
 
 from typing import NamedTuple

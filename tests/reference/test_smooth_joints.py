@@ -198,12 +198,13 @@ def test_joints_that_can_not_close_are_refused_and_others_closed():
     assert sides == pytest.approx([1, 1.1, 1.2], abs=1e-11) and "positions at the start" in run.reason
 
 
-def test_limits_and_motors_of_limited_force_are_unsupported():
+def test_limits_and_motors_of_limited_force_are_not_smooth():
     for given in ({"limits": (-1, 1)}, {"motor": (1, 5)}):
         scene = Scene(gravity=(0, -9.81))
         scene.join(Hinge(scene.add(Box((0.5, 0.1))), point=(0, 0), **given))
-        with pytest.raises(Unsupported, match="joint 0, a Hinge, has limits or a motor of limited force"):
-            simulate(scene, 0.1, 0.01)
+        assert model(scene).simulator == "velocity_lcp"
+        with pytest.raises(Unsupported, match="has limits, makes an LCP"):
+            simulate(scene, 0.1, 0.01, simulator="smooth")
 
 
 def test_solver_is_for_joints():
@@ -246,6 +247,51 @@ def test_asking_for_forces_changes_nothing():
     assert np.array_equal(simulation.state.position, before.position)
 
 
+def test_a_users_own_force_acts_on_joined_bodies():
+    expected = simulate(jointed.chain(2), 0.1, 0.01)
+    scene = jointed.chain(2)
+    scene.gravity = np.zeros(2)
+    scene.force(lambda t, state: (np.array([[0, -9.81], [0, -9.81]]), np.zeros(2)))
+    run = simulate(scene, 0.1, 0.01)
+    assert np.abs(run.position - expected.position).max() < 1e-12
+    assert np.abs(run.joint_forces().force - expected.joint_forces().force).max() < 1e-10
+
+
+def plain(code):
+    """What a fresh interpreter prints that compiles nothing, as JSON."""
+    path = os.pathsep.join(["tests", "tests/reference", "."])
+    environment = {**os.environ, "PYTHONPATH": path, "REFERENCE_COMPILED": "0"}
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, env=environment, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def few_steps():
+    """Two steps of a scene with each solver: positions and velocities, flat."""
+    scenes = {
+        "cholesky": jointed.hinged_chain(3),
+        "sparse": jointed.four_bar(0.8),
+        "tree": jointed.star(4),
+        "minimum_norm": jointed.door(ω=1),
+    }
+    runs = {name: simulate(scene, 0.02, 0.01, solver=name) for name, scene in scenes.items()}
+    return {
+        name: np.concatenate(
+            [part.ravel() for part in (run.position, run.orientation, run.velocity)]
+        ).tolist()
+        for name, run in runs.items()
+    }
+
+
+def test_compiled_and_plain_give_the_same():
+    expected = plain("import json; from test_smooth_joints import few_steps; print(json.dumps(few_steps()))")
+    for name, found in few_steps().items():
+        scale = np.abs(expected[name]).max()
+        assert np.abs(np.subtract(found, expected[name])).max() <= 1e-12 * scale, name
+
+
 ORDERS = """
 import json, sys
 import numpy as np
@@ -264,13 +310,7 @@ json.dump(found, sys.stdout)
 
 
 def test_the_order_of_each_integrator_with_joints():
-    path = os.pathsep.join(["tests", "tests/reference", "."])
-    environment = {**os.environ, "PYTHONPATH": path, "REFERENCE_COMPILED": "0"}  # to save compiling each
-    done = subprocess.run(
-        [sys.executable, "-c", ORDERS], cwd=ROOT, env=environment, capture_output=True, text=True, check=False
-    )
-    assert done.returncode == 0, done.stderr
-    found = json.loads(done.stdout)
+    found = plain(ORDERS)  # to save compiling each
     expected = {"rk4": 4, "splitting": 2, "splitting4": 4, "implicit_midpoint": 2}
     expected |= {"symplectic_euler": 1, "explicit_euler": 1}
     assert found == {name: pytest.approx(order, abs=0.35) for name, order in expected.items()}

@@ -1,4 +1,4 @@
-"""Lemke's method beside QuantEcon's compiled one, where it is installed: the same pivots, the same λ, and time.
+"""Lemke's method beside QuantEcon's compiled one, where it is installed: same pivots, same λ, and time.
 
 It is not among the course's requirements: it would bring SymPy and more along for this one comparison.
 """
