@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from .. import inputs
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 from ..factored import Factored
 from .gauss_seidel import how_often
 from .iteration import BLOWN_UP, iterate
@@ -37,7 +37,7 @@ class Blocks(NamedTuple):
     widest: int
 
 
-@compiled(inline=False)
+@compiled_apart
 def solve_block(terms, blocks, k, λ, w, inner):
     """Make the w (widest,) of block k right by sweeps within it, at most ``inner``; λ and w are renewed."""
     first, size, at = blocks.begin[k], blocks.begin[k + 1] - blocks.begin[k], blocks.offset[k]
