@@ -142,8 +142,9 @@ def residual_table():
         known = LCP_PROBLEMS["column"](n, heavy)
         cells = []
         for method, tolerance in cases:
-            λ = method(known.problem, tolerance=tolerance, max_iterations=20_000).lam
-            cells.append(f"{100 * known.error(λ):.2g} %")
+            solution = method(known.problem, tolerance=tolerance, max_iterations=20_000)
+            stopped = "" if solution.solved else f", stopped after 20000 at a residual of {solution.residual:.1g}"
+            cells.append(f"{100 * known.error(solution.lam):.2g} %{stopped}")
         yield f"| {n}, top × {heavy} | {' | '.join(cells)} |"
 
 
