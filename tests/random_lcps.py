@@ -27,13 +27,13 @@ def parts(seed, largest=4):
         friction = [1], [0], float(random.choice([0, 0.3, 0.5, 2.0]))
         if random.random() < 0.8:
             lower[0], upper[0] = 0, np.inf
-    if random.random() < 0.2:  # other units of λ
+    regular = np.abs(A).sum(axis=1).all()  # a row of zeros has no unit of its own: d = 1 there, by definition
+    if random.random() < 0.2 and regular:  # other units of λ
         unit = 10.0 ** random.integers(-12, 13)
         A, lower, upper = A / unit, lower * unit, upper * unit
-    if random.random() < 0.2:  # other units of w
+    if random.random() < 0.2 and regular:  # other units of w
         unit = 10.0 ** random.integers(-12, 13)
-        if np.abs(A).sum(axis=1).all():  # a row of zeros has no unit of its own: d = 1 there, by definition
-            A, b = A * unit, b * unit
+        A, b = A * unit, b * unit
     return A, b, lower, upper, friction, kind
 
 

@@ -41,8 +41,7 @@ an iteration, dense or sparse (``direct``). Gradients (``apgd``) are compiled as
 a step takes ``cone_newton_kernel`` on arrays of its own.
 
 **Pivoting** (unit 06): a rule of principal pivots is ``kernel(state, most, *options) -> (pivots, code)``, and
-``rounds.by_principal_pivots`` the rest; ``lemke`` and ``enumeration`` begin from the plain form
-(``standard``).
+``rounds.by_principal_pivots`` the rest; ``lemke`` and ``enumeration`` take the plain form (``standard``).
 
 Slides S11–S17; lectures/06_pivoting_lcp.md, lectures/07_iterative_lcp.md, lectures/08_newton_lcp.md.
 """

@@ -43,8 +43,8 @@ def judge(seed, brute_force=True):
 
 
 def meaningful(A, solutions):
-    """Those solutions that rounding didn't make: where A is singular but for its last digits, one may be at
-    λ of 1e16.
+    """Those solutions that rounding didn't make: where A is singular but for its last digits, there may be
+    one at λ of 1e16.
     """
     return [λ for λ in solutions if regular(A, np.flatnonzero(np.array(λ, dtype=float)))]
 
