@@ -299,8 +299,10 @@ def show(line, shown, last):
 # --- Running programs in the environment ------------------------------------------------------------------
 
 THREADS = {name + "_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL", "BLIS", "VECLIB_MAXIMUM")}
-UNWANTED = ("PYTHONHOME", "PYTHONSTARTUP", "__PYVENV_LAUNCHER__", "JUPYTER_PATH", "JUPYTER_CONFIG_PATH",
-            "JUPYTERLAB_DIR", "JUPYTERLAB_SETTINGS_DIR", "JUPYTERLAB_WORKSPACES_DIR")
+SIDE_BY_SIDE = ("-n", "auto", "--maxprocesses", "4", "--dist", "loadgroup")     # tests, on several processors
+# Without bytecode, which pip is told to leave to the first use, each process would compile what it imports.
+UNWANTED = ("PYTHONHOME", "PYTHONSTARTUP", "PYTHONDONTWRITEBYTECODE", "__PYVENV_LAUNCHER__", "JUPYTER_PATH",
+            "JUPYTER_CONFIG_PATH", "JUPYTERLAB_DIR", "JUPYTERLAB_SETTINGS_DIR", "JUPYTERLAB_WORKSPACES_DIR")
 
 
 def environment(**changes):
@@ -460,7 +462,9 @@ def settle_jupyter():
 
 
 def test(options, rest):
-    return run(course_python(options.wheels), ["-m", "pytest", *rest], MPLBACKEND="Agg", **THREADS)
+    """An option given twice counts as it is given last: `-n 0` runs one test after the other."""
+    arguments = ["-m", "pytest", *SIDE_BY_SIDE, *rest]
+    return run(course_python(options.wheels), arguments, MPLBACKEND="Agg", **THREADS)
 
 
 def bench(options, rest):
@@ -594,8 +598,9 @@ def make_parser():
                     "Sets up on first use. Your copies are never written over.")
     added.add_argument("--no-browser", action="store_true", help="only serve, and print the address to open")
     added.add_argument("--port", type=int, help="serve on this port, or the next free one (default 8888)")
-    command("test", test, "run all tests", "Sets up on first use. All other arguments go to pytest: -m slow, "
-            "-k NAME, ...", usage="[--wheels DIR] [PYTEST ARGUMENTS ...]")
+    command("test", test, "run all tests", "Sets up on first use. Runs on up to four processors. All other "
+            "arguments go to pytest: -m slow, -k NAME, -n 0 (one test after the other, with all they print), "
+            "...", usage="[--wheels DIR] [PYTEST ARGUMENTS ...]")
     added = command("check", check, "check your exercise; alone: show which units are done",
                     "Exit code: 0 all checks pass, 1 some fail, 2 it could not be checked.")
     added.add_argument("target", nargs="?", metavar="UNIT|PATH", help="a unit (your copy in work/) or a file")

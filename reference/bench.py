@@ -11,101 +11,74 @@ to Python. A force that an engine has no word for is computed in Python at each 
 give it one, and that counts too: on such cases (orbit, heavy top, springs in pybullet) the engine's own part
 of the time is small.
 
+A mechanism in a vertical plane is run by both engines: pymunk has it in the plane, pybullet in space.
+``links`` is another kind of study: what a step costs as a chain grows. Under each table stands what ``model``
+leaves out, since the scene doesn't need it.
+
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
 
 import argparse
-import gc
 import json
 import sys
 from pathlib import Path
 
-import numpy as np
-
 from . import cluster
-from .bench_methods import CONTESTS, ladder, methods_of
-from .bench_report import plot, summary, table
-from .cases import CASES
+from .bench_contests import CONTESTS
+from .bench_growth import GROWTHS
+from .bench_report import HEADING
+from .cases.case import Catalogue
 from .peers import ENGINES
+
+STUDIES = Catalogue("case", {**CONTESTS, **GROWTHS})
 
 DEFAULT_OUT = Path(__file__).resolve().parents[1] / "build" / "bench"
 
 
-def contest(label, longest, repeats, tell):
-    """All measurements of a contest, as dictionaries: what the JSON lines hold."""
-    plan = []
-    for method in methods_of(label):
-        tell(f"{label}: {method.name}: errors")
-        plan += [(method, *row) for row in ladder(method, longest)]
-    times = np.full((repeats, len(plan)), np.nan)
-    gc.disable()
-    for turn in range(repeats):
-        for k, (method, steps, _, status) in enumerate(plan):
-            tell(f"{label}: timing, turn {turn + 1} of {repeats}, run {k + 1} of {len(plan)}")
-            if status == "ok":
-                times[turn, k] = method.seconds(steps)
-    gc.enable()
-    medians = np.median(times, axis=0)
-    return [_row(label, *entry, seconds) for entry, seconds in zip(plan, medians, strict=True)]
+def measured(labels, longest, repeats, scheduler=None):
+    """(label, rows) of each study, in order; with a scheduler's address, each as one task of its cluster.
 
-
-def _row(label, method, steps, error, status, seconds):
-    dt = method.case.duration / steps
-    settings = {"engine": method.engine, **method.settings, "steps": steps, "dt": dt}
-    return {
-        "case": label,
-        "method": method.name,
-        "settings": settings,
-        "cpu_s": float(seconds) if status == "ok" else None,
-        "error": float(error) if np.isfinite(error) else None,
-        "status": status,
-    }
-
-
-def contests(labels, longest, repeats, scheduler=None):
-    """(label, rows) of each contest, in order; with a scheduler's address, each as one task of its cluster.
-
-    A contest stays in one process, so that its methods meet the same machine. On a cluster's worker no other
+    A study stays in one process, so that its methods meet the same machine. On a cluster's worker no other
     task should run: give it one thread, and no neighbour on its processor.
     """
     if scheduler is None:
         for number, label in enumerate(labels, start=1):
-            yield label, contest(label, longest, repeats, _progress(f"[{number}/{len(labels)}] "))
+            yield label, STUDIES[label].measure(longest, repeats, _progress(f"[{number}/{len(labels)}] "))
         return
     with cluster.connect(scheduler) as client:
         tasks = ((label, json.dumps([label, longest, repeats])) for label in labels)
         rows_of = {}
-        for label, future in cluster.finished(client, contest_as_text, tasks):
+        for label, future in cluster.finished(client, study_as_text, tasks):
             rows_of[label] = json.loads(future.result())
             print(f"[{len(rows_of)}/{len(labels)}] {label}: measured", file=sys.stderr, flush=True)
     yield from ((label, rows_of[label]) for label in labels)
 
 
-def contest_as_text(text):
-    """A contest as a task: [label, longest, repeats] in JSON → its rows in JSON."""
+def study_as_text(text):
+    """A study as a task: [label, longest, repeats] in JSON → its rows in JSON."""
     label, longest, repeats = json.loads(text)
-    return json.dumps(contest(label, longest, repeats, lambda message: None))
+    return json.dumps(STUDIES[label].measure(longest, repeats, lambda message: None))
 
 
 def chosen_labels(names):
-    """Contests by their labels, or by a case's name for all of its contests; no names: all of them."""
+    """Studies by their labels, or by a case's name for all of its studies; no names: all of them."""
     if not names:
-        return list(CONTESTS)
+        return list(STUDIES)
     labels = []
     for name in names:
-        of_case = [label for label, (case, _, _) in CONTESTS.items() if case == name]
+        of_case = [label for label, study in STUDIES.items() if study.case == name]
         if not of_case:
-            CONTESTS[name]  # an unknown name raises KeyError with the list
-        labels += of_case if name not in CONTESTS else [name]
+            STUDIES[name]  # an unknown name raises KeyError with the list
+        labels += of_case if name not in STUDIES else [name]
     return labels
 
 
 def main(arguments=None):
-    """Run the contests; table, JSON lines, plots and summary go to a folder, the text to the terminal too."""
+    """Run the studies; table, JSON lines, plots and summary go to a folder, the text to the terminal too."""
     parser = argparse.ArgumentParser(
         prog="bench", description="Speed against error, beside pymunk and pybullet."
     )
-    parser.add_argument("cases", nargs="*", metavar="CASE", help=f"of {', '.join(CONTESTS)}; none: all")
+    parser.add_argument("cases", nargs="*", metavar="CASE", help=f"of {', '.join(STUDIES)}; none: all")
     parser.add_argument("--out", type=Path, default=DEFAULT_OUT, help="output folder (default build/bench)")
     parser.add_argument(
         "--quick", action="store_true", help="short runs, few repeats: a look, no measurement"
@@ -123,13 +96,14 @@ def main(arguments=None):
             print(f"{engine.name} is not installed here, and so not compared: {engine.install}")
     longest, repeats = (0.03, 3) if options.quick else (0.2, 5)
     options.out.mkdir(parents=True, exist_ok=True)
-    everything, text = [], []
-    for label, rows in contests(labels, longest, repeats, options.scheduler):
+    everything, text, compared = [], [], [HEADING]
+    for label, rows in measured(labels, longest, repeats, options.scheduler):
         everything += rows
-        text.append(table(label, rows))
+        text.append(STUDIES[label].table(rows))
         print(text[-1], flush=True)
-        plot(label, rows, CASES[CONTESTS[label][0]]().unit, options.out / f"{label.replace('/', '_')}.png")
-    text.append(summary(everything))
+        STUDIES[label].plot(rows, options.out / f"{label.replace('/', '_')}.png")
+        compared += STUDIES[label].summary(rows)
+    text.append("\n".join(compared))
     print(text[-1])
     (options.out / "bench.txt").write_text("\n\n".join(text) + "\n", encoding="utf-8")
     lines = "".join(json.dumps(row) + "\n" for row in everything)

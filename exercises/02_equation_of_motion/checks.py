@@ -24,12 +24,14 @@ def number(stream, low, high):
     return round(stream.uniform(low, high), 3)
 
 
-def from_pool(oracle, visible, label, count):
-    """Hidden cases drawn from what the engine was recorded on, beyond the visible ones, which come first."""
+def of_an_engine(oracle, visible, make, label, recorded=2, new=3):
+    """Hidden cases: a few of those that the engine was recorded on (beyond the visible ones, which come
+    first), and new ones, so that to know the recordings is not enough."""
 
     def draw(stream):
         pool = oracle.pool[len(visible) :]
-        return [Case(label, pool[i]) for i in stream.choice(len(pool), count, replace=False)]
+        chosen = [pool[i] for i in stream.choice(len(pool), recorded, replace=False)]
+        return [Case(label, values) for values in [*chosen, *(make(stream, i) for i in range(new))]]
 
     return draw
 
@@ -41,7 +43,9 @@ PLATE = Check(
     title="mass, centre and inertia of a plate with holes",
     points=15,
     visible=tuple(Case(label, inputs) for label, inputs in engines.PLATES.items()),
-    hidden=from_pool(engines.PLATE, engines.PLATES, "a plate of many corners with one or two holes", 5),
+    hidden=of_an_engine(
+        engines.PLATE, engines.PLATES, engines.some_plate, "a plate of many corners with one or two holes"
+    ),
     judge=equal(engines.PLATE, 1e-9),
     source=engines.PLATE.source,
     why="pymunk computes in double precision too: its moments differ from ours by rounding, about 1e-15.",
@@ -511,7 +515,7 @@ SWING = Check(
     title="a pendulum, step for step as pybullet does it",
     points=10,
     visible=tuple(Case(label, inputs) for label, inputs in engines.SWINGS.items()),
-    hidden=from_pool(engines.SWING, engines.SWINGS, "let go at a large angle", 4),
+    hidden=of_an_engine(engines.SWING, engines.SWINGS, engines.some_swing, "let go at a large angle", new=2),
     judge=equal(engines.SWING, 1e-9),
     source=engines.SWING.source,
     why="pybullet steps its jointed trees exactly like this, in double precision: the two agree to 1e-15. "

@@ -6,7 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
+import exercises
 from exercises.grader.recordings import EngineOracle, silence
+
+right = exercises.part("02_equation_of_motion", "answers")
 
 FOLDER = Path(__file__).resolve().parent / "recordings"
 GRAVITY = 9.81
@@ -121,36 +124,38 @@ SWINGS = {
 }
 
 
-def plate_inputs():
-    stream, inputs = np.random.default_rng(21), list(PLATES.values())
-    for i in range(CASES):
-        shift, side = stream.uniform(-3, 3, 2), stream.uniform(0, 2 * math.pi)
-        outline = _round_polygon(stream, 6 + i % 3, 2.0, shift)
-        holes = [
-            _round_polygon(
-                stream, 3 + i % 3, 0.4, shift + sign * 0.7 * np.array([math.cos(side), math.sin(side)])
-            )
-            for sign in (1, -1)[: 1 + i % 2]
-        ]
-        inputs.append(
-            {"outline": outline, "holes": tuple(holes), "density": round(stream.uniform(0.5, 3), 3)}
+def some_plate(stream, i):
+    """A plate; `i` says how many corners and holes it has."""
+    shift, side = stream.uniform(-3, 3, 2), stream.uniform(0, 2 * math.pi)
+    outline = _round_polygon(stream, 6 + i % 3, 2.0, shift)
+    holes = [
+        _round_polygon(
+            stream, 3 + i % 3, 0.4, shift + sign * 0.7 * np.array([math.cos(side), math.sin(side)])
         )
-    return inputs
+        for sign in (1, -1)[: 1 + i % 2]
+    ]
+    return {"outline": outline, "holes": tuple(holes), "density": round(stream.uniform(0.5, 3), 3)}
+
+
+def some_swing(stream, i):
+    return {
+        "mass": round(stream.uniform(0.5, 3), 3),
+        "inertia": round(stream.uniform(0.1, 0.5), 3),
+        "length": round(stream.uniform(0.3, 1), 3),
+        "angle": round(stream.uniform(0.8, 2.8), 3),
+        "dt": round(stream.uniform(0.004, 0.02), 4),
+        "steps": 40,
+    }
+
+
+def plate_inputs():
+    stream = np.random.default_rng(21)
+    return [*PLATES.values(), *(some_plate(stream, i) for i in range(CASES))]
 
 
 def swing_inputs():
     stream = np.random.default_rng(22)
-    return [*SWINGS.values()] + [
-        {
-            "mass": round(stream.uniform(0.5, 3), 3),
-            "inertia": round(stream.uniform(0.1, 0.5), 3),
-            "length": round(stream.uniform(0.3, 1), 3),
-            "angle": round(stream.uniform(0.8, 2.8), 3),
-            "dt": round(stream.uniform(0.004, 0.02), 4),
-            "steps": 40,
-        }
-        for _ in range(CASES)
-    ]
+    return [*SWINGS.values(), *(some_swing(stream, i) for i in range(CASES))]
 
 
 PLATE = EngineOracle(
@@ -159,6 +164,7 @@ PLATE = EngineOracle(
     plate_in_pymunk,
     plate_inputs,
     {"functions": "Poly.area, Poly.center_of_gravity, moment_for_poly with an offset"},
+    model=right.plate,
 )
 SWING = EngineOracle(
     "pybullet",
@@ -172,5 +178,6 @@ SWING = EngineOracle(
         "joint motor": "off",
         "precision": "double",
     },
+    model=right.swing,
 )
 ENGINES = (PLATE, SWING)

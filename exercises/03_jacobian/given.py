@@ -64,13 +64,13 @@ def rope(pulley_i, pulley_j, point_i, point_j, ratio):
 
 
 def show_slope(slope):
-    """Draws the error of slope against h, for a screw that moves."""
-    axis, point = np.array([0.0, 0.0, 1.0]), np.array([0.3, -0.2, 0.1])
-    pose = np.array([0.0, 0, 0, 1, 0, 0, 0, 0.6, -0.4, 0.2, 1, 0, 0, 0])
-    u = np.array([0.2, -0.1, 0.3, 0.0, 0.0, 2.0, 0.4, 0.1, -0.2, 0.0, 0.0, -3.0])
-    phi, exact = screw(axis, point, -point, 0.5), -0.5 + 0.5 / (2 * np.pi) * 5
-    steps = 0.5 / 2.0 ** np.arange(24)
-    slopes = [slope(phi, pose, u, h) for h in steps]
+    """Draws the error of slope against h, for a rope from which a body flies away in a straight line."""
+    pulley, v = np.array([0.0, 0.0, 2.0]), np.array([1.0, 0.5, -0.3])
+    phi = rope(pulley, pulley, np.zeros(3), np.zeros(3), 1.0)
+    pose = np.array([0.5, 0.0, 0, 1, 0, 0, 0, 0.6, -0.4, 0.2, 1, 0, 0, 0])
+    exact = (pose[:3] - pulley) @ v / np.linalg.norm(pose[:3] - pulley)
+    steps = 0.5 / 2.0 ** np.arange(30)
+    slopes = [slope(phi, pose, np.concatenate([v, np.zeros(9)]), h) for h in steps]
     if any(not isinstance(value, (int, float, np.floating)) for value in slopes):
         print("The picture comes once slope passes its check.")
         return

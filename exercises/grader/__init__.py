@@ -13,7 +13,8 @@ Two sides talk over a pipe, in JSON text. What knows the answers stays on the gr
     both sides        replies    which values may cross, and how they are written
     student's side    worker     looks functions up, calls them, sends back what they return
                       cells      runs a notebook's cells
-                      absent     stands in for packages that an exercise is to be solved without
+                      state      what a question changes is put back
+                  absent     stands in for packages that an exercise is to be solved without
                       ipython    IPython's syntax as plain Python
                       numba_cache  switched off: its files are pickles
                       serve      the loop of the shell's subprocess

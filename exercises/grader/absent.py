@@ -8,6 +8,7 @@ shows things (IPython.display) may be used, and does nothing.
 
 import importlib.abc
 import importlib.machinery
+import math
 import sys
 import types
 
@@ -25,12 +26,10 @@ HIDDEN = (
     "pybullet_utils",
     "IPython",
 )  # if already imported
-INERT = ("IPython", "ipywidgets", "matplotlib_inline", "tqdm", "google")
-
-
-def is_present(name):
-    """May a student's cell import this module?"""
-    return name.split(".")[0] in PRESENT
+INERT = (
+    "IPython", "ipywidgets", "ipympl", "matplotlib_inline", "tqdm", "google", "seaborn", "plotly", "bokeh",
+    "rich", "tabulate", "termcolor", "colorama",
+)  # fmt: skip
 
 
 class Absent(ImportError):
@@ -83,6 +82,16 @@ class _Inert:
 
     def __iter__(self):
         return iter(())
+
+    def __format__(self, form):
+        return ""
+
+    def __float__(self):
+        return math.nan
+
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = (
+        lambda self, other: self
+    )
 
 
 INERT_THING = _Inert()

@@ -5,6 +5,8 @@ A file is a notebook (.ipynb) or a script whose cells begin with `# %%`. IPython
 measure or catch what a cell does: their cell runs. A cell that raises doesn't stop the later ones.
 """
 
+import __future__
+
 import ast
 import asyncio
 import inspect
@@ -18,6 +20,7 @@ import types
 from exercises.grader import absent, ipython
 from exercises.grader.worker import describe
 
+FUTURE = __future__.annotations.compiler_flag
 RUN_THEIR_CELL = {"time", "timeit", "capture", "prun", "memit", "python", "python3"}
 
 
@@ -56,7 +59,7 @@ class Namespace:
     """Where cells run: one module's names, with what a notebook finds there."""
 
     def __init__(self):
-        self.module = types.ModuleType("__main__")
+        self.module, self.future = types.ModuleType("__main__"), 0
         self.names = self.module.__dict__
         self.names.update(display=lambda *things, **options: None, get_ipython=lambda: absent.shell)
         absent.shell = Shell(self)
@@ -72,7 +75,8 @@ class Namespace:
                 source.splitlines(keepends=True),
                 name,
             )  # lines for tracebacks
-            code = compile(tree, name, "exec", flags=ast.PyCF_ALLOW_TOP_LEVEL_AWAIT)
+            code = compile(tree, name, "exec", flags=ast.PyCF_ALLOW_TOP_LEVEL_AWAIT | self.future)
+            self.future |= code.co_flags & FUTURE  # `from __future__ import …` holds in later cells too
             result = eval(code, self.names)
             if inspect.iscoroutine(result):
                 asyncio.run(result)
@@ -131,6 +135,7 @@ class Shell:
         self.namespace, self.user_ns = namespace, namespace.names
 
     def run_line_magic(self, magic, line, *rest):
+        options = OPTIONS.match(line.strip())
         line = OPTIONS.sub("", line.strip())
         if magic not in RUN_THEIR_CELL or not line:
             return None
@@ -139,9 +144,13 @@ class Shell:
         except SyntaxError:  # no expression: `%time x = 1`
             code = compile(_as_python(line), "magic", "exec")
         result = eval(code, self.user_ns)
-        return result if magic == "time" else None
+        if magic == "time":
+            return result
+        return absent.INERT_THING if options and "-o" in options[0] else None  # how long it took
 
     def run_cell_magic(self, magic, line, cell):
+        if magic == "capture" and (name := line.split("-")[0].strip()):
+            self.user_ns[name] = absent.INERT_THING  # what was printed, if anybody asks
         if magic in RUN_THEIR_CELL:
             exec(compile(_as_python(cell), "cell", "exec"), self.user_ns)
 

@@ -50,36 +50,55 @@ class Result:
 
 
 def mark(check, ask, seed=SELF_STUDY_SEED):
-    """The Result of one check. All calls of all its cases go in one message."""
+    """The Result of one check. All calls of the visible cases go in one message, those of the hidden ones in
+    another: a function that looks about it while a visible case is asked finds no hidden one to tell of."""
     cases = check.cases(seed)
+    visible, hidden = [one for one in cases if not one.hidden], [one for one in cases if one.hidden]
+    outcomes = _outcomes(check, visible, ask, more=bool(hidden))
+    lost = [one.verdict.got for one in outcomes if getattr(one.verdict.got, "kind", "") == "no answer"]
+    return Result(check, outcomes + (_outcomes(check, hidden, ask, lost=lost[:1]) if hidden else []))
+
+
+def _outcomes(check, cases, ask, more=False, lost=()):
+    """`more`: another message on the same question follows. `lost`: the Failure of whom nobody answers."""
     calls = [check.calls_of(case) for case in cases]
     request = [
         {"function": call.function, "arguments": [pack(argument) for argument in call.arguments]}
         for group in calls
         for call in group
     ]
-    answers = _read(ask(json.dumps({"calls": request}, allow_nan=False)), len(request), check.reply)
+    message = {"calls": request, **({"more": True} if more else {})}
+    if lost:
+        answers = [(lost[0], "")] * len(request)
+    else:
+        answers = _read(ask(json.dumps(message, allow_nan=False)), len(request), check.reply)
     outcomes = []
     for case, group in zip(cases, calls, strict=True):
         mine, answers = answers[: len(group)], answers[len(group) :]
         outcomes.append(Outcome(case, group, _verdict(check, case, mine), "".join(text for _, text in mine)))
-    return Result(check, outcomes)
+    return outcomes
 
 
 def _verdict(check, case, answers):
     values = [value for value, _ in answers]
     failing = [number for number, value in enumerate(values) if isinstance(value, Failure)]
     if failing:
-        failure, expected = values[failing[0]], _expected(check, case, values)
+        failure = values[failing[0]]
+        expected = _expected(check, case, [None if isinstance(one, Failure) else one for one in values])
         return Verdict(math.inf, 0.0, expected, failure, failure.message, calls=(failing[0],))
-    return check.judge(case.values, values)
-
-
-def _expected(check, case, values):
-    """What was to come in place of a Failure, where the judge can say so without an answer."""
     try:
-        answered = [None if isinstance(value, Failure) else value for value in values]
-        return check.judge(case.values, answered).expected
+        return check.judge(case.values, values)
+    except Exception:
+        expected = _expected(check, case, [None] * len(values))
+        if expected is None:  # the judge cannot say what is right either: that is our own fault
+            raise
+        return Verdict(math.inf, 0.0, expected, values[0], "an answer too odd to be judged")
+
+
+def _expected(check, case, answers):
+    """What was to come, where the judge can say so without (all) answers."""
+    try:
+        return check.judge(case.values, answers).expected
     except Exception:  # a judge that must see an answer, or an engine that is not there
         return None
 

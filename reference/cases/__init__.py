@@ -5,9 +5,14 @@ Each entry is a function of the case's parameters, all with defaults, that retur
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
 
+from .bricard import bricard
 from .case import Case, Catalogue, Motion
+from .chains import chain, hanging_chain
 from .free_motion import free_fall, planar_flight, projectile_drag, spring, tumbling_box
+from .gimbal import gimbal_gyroscope
+from .linkages import four_bar, n_four_bars, slider_crank
 from .orbits import two_body_orbit
+from .pendulums import door, double_pendulum, pendulum
 from .tops import heavy_top, torque_free_top
 
 CASES = Catalogue(
@@ -23,6 +28,16 @@ CASES = Catalogue(
             torque_free_top,
             heavy_top,
             two_body_orbit,
+            pendulum,
+            double_pendulum,
+            chain,
+            hanging_chain,
+            door,
+            four_bar,
+            slider_crank,
+            n_four_bars,
+            bricard,
+            gimbal_gyroscope,
         )
     },
 )

@@ -12,6 +12,8 @@ import numpy as np
 from ..rotation import rotation_angle
 from ..scene import Scene
 
+GRAVITY = 9.81  # m/s²
+
 
 class Motion(NamedTuple):
     """The exact motion at the times (T,): arrays shaped as a Trajectory's, n bodies in d dimensions, world

@@ -10,10 +10,17 @@ import numpy as np
 
 from ..scene import Scene
 from ..shapes import Box, Point, Polygon
-from .case import Case, Motion, at_rest, checked_dimension, flight_error, position_error, positive
+from .case import (
+    GRAVITY,
+    Case,
+    Motion,
+    at_rest,
+    checked_dimension,
+    flight_error,
+    position_error,
+    positive,
+)
 from .free_top import FreeTop
-
-GRAVITY = 9.81  # m/s²
 
 
 def _gravity(dimension):

@@ -114,9 +114,7 @@ class SteadyPrecession:
     def attitude(self, time):
         """Quaternions (…, 4), body → world, at the times (…,)."""
         time, product = np.asarray(time, dtype=float), over_arrays(multiply)
-        return product(
-            product(_turn(2, self.precession * time), _turn(0, self.tilt)), _turn(2, self.own * time)
-        )
+        return product(product(turn(2, self.precession * time), turn(0, self.tilt)), turn(2, self.own * time))
 
     def angular_velocity(self, time):
         """Ω ẑ + ψ̇ e₃ in the world's frame, (…, 3), rad/s."""
@@ -126,8 +124,8 @@ class SteadyPrecession:
         return self.own * axis + np.array([0.0, 0.0, self.precession])
 
 
-def _turn(axis, angle):
-    """The quaternion (…, 4) of a turn by ``angle`` about a coordinate axis."""
+def turn(axis, angle):
+    """The quaternion (…, 4) of a turn by ``angle``, rad, about a coordinate axis."""
     q = np.zeros((*np.shape(angle), 4))
     q[..., 0], q[..., 1 + axis] = np.cos(np.asarray(angle) / 2), np.sin(np.asarray(angle) / 2)
     return q

@@ -9,6 +9,7 @@ import importlib.util
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import metadata
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,12 +20,19 @@ from ..simulators.simulate import count_steps
 from ..trajectory import BodyState, ContactHistory, Trajectory
 
 
+class Between(NamedTuple):
+    """Numbers from low to high are allowed."""
+
+    low: float
+    high: float
+
+
 @dataclass(frozen=True)
 class Engine:
     """An engine: ``load(scene, dt, **settings)`` gives a Peer that steps the scene in it.
 
-    name: of the Python package; settings: name → (default, what is allowed: a tuple of words, or the smallest
-    whole number); install: a sentence; adapter: the Peer's class.
+    name: of the Python package; settings: name → (default, what is allowed: a tuple of words, the smallest
+    whole number, or numbers ``Between`` two); install: a sentence; adapter: the Peer's class.
     """
 
     name: str
@@ -75,15 +83,24 @@ class Engine:
         for name, value in settings.items():
             if name not in chosen:
                 raise ValueError(f"{name!r} is no setting of {self.name}, which has {valid}")
-            allowed = self.settings[name][1]
-            words = isinstance(allowed, tuple)
-            chosen[name] = (
-                inputs.choice(name, value, allowed) if words else inputs.whole(name, value, least=allowed)
-            )
+            chosen[name] = _checked_value(name, value, self.settings[name][1])
         return chosen
 
 
+def _checked_value(name, value, allowed):
+    if isinstance(allowed, Between):
+        result = inputs.number(name, value)
+        if not allowed.low <= result <= allowed.high:
+            raise ValueError(f"{name} must be {_allowed(allowed)}, but is {value!r}")
+        return result
+    if isinstance(allowed, tuple):
+        return inputs.choice(name, value, allowed)
+    return inputs.whole(name, value, least=allowed)
+
+
 def _allowed(allowed):
+    if isinstance(allowed, Between):
+        return f"a number from {allowed.low:g} to {allowed.high:g}"
     return " or ".join(map(repr, allowed)) if isinstance(allowed, tuple) else f"a whole number from {allowed}"
 
 

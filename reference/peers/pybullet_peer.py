@@ -36,7 +36,11 @@ torque, for both kinds of body and several spins, and not with the other kind's 
 agree to 1e-11. Cut-off, limit, damping and sleeping were seen in single steps from chosen states. Bullet's
 public source (btMultiBody, read) has the explicit term and that damping. The tests repeat the steps.
 
-Slides S4, S9, S18; lectures/02_equation_of_motion.md.
+**Joints**: see ``pybullet_tree`` for multibodies and ``pybullet_joints`` for what closes a loop and for rigid
+bodies. Where they are constraints, the engine's sweeps end after ``iterations``, or before that once a sweep
+changes little (``residual``; 0: never).
+
+Slides S4, S5, S9, S18; lectures/02_equation_of_motion.md.
 """
 
 import math
@@ -45,16 +49,17 @@ import weakref
 import numpy as np
 
 from ..compiled import plain
-from ..inertia import principal_axes
+from ..joints import BallJoint
 from ..rotation import conjugate, multiply
 from ..scene import Unsupported
-from ..shapes import Point
-from .engine import Engine, Peer
+from .engine import Between, Engine, Peer
 from .forces import Forces
+from .pybullet_joints import Constrainer
+from .pybullet_tree import add_tree, check_size, set_joints
 from .quiet import silence
+from .trees import trees
 
 _multiply, _conjugate = plain(multiply), plain(conjugate)
-_NO_LIMIT = 1e300  # m/s and rad/s
 
 
 class PybulletPeer(Peer):
@@ -66,17 +71,18 @@ class PybulletPeer(Peer):
 
         super().__init__(engine, scene, dt, settings)
         self.forces = Forces(scene, scene.springs, scene.drags)
-        self._check_spin()
         self.p, self.client = pybullet, pybullet.connect(pybullet.DIRECT)
         self._disconnect = weakref.finalize(self, _disconnect, pybullet, self.client)
         try:
-            self._build(rigid=settings["body"] == "rigid", iterations=settings["iterations"])
+            self._build(settings["body"] == "rigid")
         except BaseException:
             self.close()
             raise
 
-    def _check_spin(self):
-        for i in self.moving:
+    def _check_spin(self, trees):
+        """What turns by more than π/4 a step from the start; a tree's Hinges have no such limit."""
+        balls = [b.body for _, branches in trees for b in branches if isinstance(b.joint, BallJoint)]
+        for i in [base for base, _ in trees if base is not None] + balls:
             turn = np.linalg.norm(self.scene.bodies[i].angular_velocity) * self.dt / self.substeps
             if turn > math.pi / 4:
                 raise Unsupported(
@@ -84,52 +90,53 @@ class PybulletPeer(Peer):
                     f"dt must be at most {self.dt * math.pi / 4 / turn:.4g} s"
                 )
 
-    def _build(self, rigid, iterations):
+    def _build(self, rigid):
         p, c = self.p, self.client
-        in_loop = self.forces.any()
-        self.calls = self.substeps if in_loop else 1  # of stepSimulation for each dt
+        self.places, self.sprung = {}, []  # sprung: (number, link, joint) of the trees' springs
+        found, left = ([(i, []) for i in self.moving], self.scene.joints) if rigid else trees(self.scene)
+        self._check_spin(found)
+        for tree in found:
+            check_size(*tree)
+        made = [(add_tree(p, c, self.scene, tree, rigid, self.places), tree[1]) for tree in found]
+        p.stepSimulation(physicsClientId=c)  # brings a rigid body's inertia in the world up to date
+        constrainer = Constrainer(p, c, self.scene, self.places, rigid)
+        for joint in left:
+            constrainer.add(joint)
+        for (base, _), (number, branches) in zip(found, made, strict=True):
+            if base is not None:
+                body = self.scene.bodies[base]
+                speeds = body.velocity.tolist(), body.angular_velocity.tolist()
+                p.resetBaseVelocity(number, *speeds, physicsClientId=c)
+            sprung = set_joints(p, c, self.scene, number, branches, self.places)
+            self.sprung += [(number, link, joint) for link, joint in sprung]
+        self.in_loop = self.forces.any() or bool(self.sprung)
+        self.calls = self.substeps if self.in_loop else 1  # of stepSimulation for each dt
         p.setPhysicsEngineParameter(
             fixedTimeStep=self.dt / self.calls,
             numSubSteps=0 if self.calls == self.substeps else self.substeps,
-            numSolverIterations=iterations,
+            numSolverIterations=self.settings["iterations"],
+            solverResidualThreshold=self.settings["residual"],
+            erp=self.settings["erp"],
             physicsClientId=c,
         )
-        self.in_engine, self.axes = {}, {}
-        for i in self.moving:
-            self.in_engine[i], self.axes[i] = self._body(self.scene.bodies[i], rigid)
-        p.stepSimulation(physicsClientId=c)  # brings a rigid body's inertia in the world up to date
         p.setGravity(*self.scene.gravity.tolist(), physicsClientId=c)
-        for i, number in self.in_engine.items():
-            body = self.scene.bodies[i]
-            p.resetBaseVelocity(
-                number, body.velocity.tolist(), body.angular_velocity.tolist(), physicsClientId=c
-            )
+        self._check_velocities()
 
-    def _body(self, body, rigid):
-        """The engine's number of a body, and the quaternion principal axes (its frame) → body's frame."""
-        p, c = self.p, self.client
-        point = isinstance(body.shape, Point)
-        moments, axes = principal_axes(np.eye(3) if point else body.inertia)
-        axes = tuple(axes.tolist())
-        w, x, y, z = _multiply(body.orientation.tolist(), axes)
-        number = p.createMultiBody(
-            baseMass=body.mass,
-            basePosition=body.position.tolist(),
-            baseOrientation=(x, y, z, w),
-            useMaximalCoordinates=rigid,
-            physicsClientId=c,
-        )
-        p.changeDynamics(number, -1, mass=body.mass, localInertiaDiagonal=moments.tolist(), physicsClientId=c)
-        p.changeDynamics(number, -1, linearDamping=0, angularDamping=0, physicsClientId=c)
-        p.changeDynamics(number, -1, activationState=p.ACTIVATION_STATE_DISABLE_SLEEPING, physicsClientId=c)
-        if not rigid:
-            p.changeDynamics(number, -1, maxJointVelocity=_NO_LIMIT, physicsClientId=c)
-        return number, axes
+    def _check_velocities(self):
+        """A tree's bodies can only start as its joints move them."""
+        for i, (_, _, velocity, spin) in zip(self.moving, self.read(), strict=True):
+            body = self.scene.bodies[i]
+            gap = np.abs(np.concatenate([velocity - body.velocity, spin - body.angular_velocity])).max()
+            if gap > 1e-9 * (1 + np.abs([*velocity, *spin]).max()):
+                raise Unsupported(
+                    f"in pybullet's trees a body starts as its joints move it, but body {i} should start "
+                    f"{gap:.3g} (m/s or rad/s) off that: give velocities that fit the joints"
+                )
 
     def step(self, steps):
         """A tight loop where the engine does everything itself; else forces are applied before each step."""
         step, c = self.p.stepSimulation, self.client
-        if not self.forces.any():
+        if not self.in_loop:
             for _ in range(steps):
                 step(c)
             return
@@ -139,24 +146,37 @@ class PybulletPeer(Peer):
             step(c)
 
     def _apply_forces(self, t):
-        start, p, c = self.bodies, self.p, self.client
+        p, c = self.p, self.client
+        for number, link, joint in self.sprung:
+            angle, rate, *_ = p.getJointState(number, link, c)
+            pull = -joint.stiffness * angle - joint.damping * rate
+            p.setJointMotorControl2(number, link, p.TORQUE_CONTROL, force=pull, physicsClientId=c)
+        if not self.forces.any():
+            return
+        start = self.bodies
         x, q = start.position.tolist(), start.orientation.tolist()
         v, ω = start.velocity.tolist(), start.angular_velocity.tolist()
         for i, body in zip(self.moving, self.read(), strict=True):
             x[i], q[i], v[i], ω[i] = body
         force, torque = self.forces(t, x, q, v, ω)
-        for i, number in self.in_engine.items():
-            p.applyExternalForce(number, -1, force[i], x[i], p.WORLD_FRAME, c)
+        for i, (number, link, _) in self.places.items():
+            p.applyExternalForce(number, link, force[i], x[i], p.WORLD_FRAME, c)
             if any(torque[i]):
-                p.applyExternalTorque(number, -1, torque[i], p.WORLD_FRAME, c)
+                p.applyExternalTorque(number, link, torque[i], p.WORLD_FRAME, c)
 
     def read(self):
         """Position, quaternion (w, x, y, z), velocity and angular velocity of each moving body."""
-        found = []
-        for i, number in self.in_engine.items():
-            place, (x, y, z, w) = self.p.getBasePositionAndOrientation(number, self.client)
-            velocity, spin = self.p.getBaseVelocity(number, self.client)
-            found.append((place, _multiply((w, x, y, z), _conjugate(self.axes[i])), velocity, spin))
+        p, c, links, found = self.p, self.client, {}, []
+        for number in {place.number for place in self.places.values() if place.link >= 0}:
+            links[number] = p.getLinkStates(number, range(p.getNumJoints(number, c)), 1, 1, c)
+        for i in self.moving:
+            number, link, axes = self.places[i]
+            if link < 0:
+                place, (x, y, z, w) = p.getBasePositionAndOrientation(number, c)
+                velocity, spin = p.getBaseVelocity(number, c)
+            else:
+                place, (x, y, z, w), *_, velocity, spin = links[number][link]
+            found.append((place, _multiply((w, x, y, z), _conjugate(axes)), velocity, spin))
         return found
 
     def close(self):
@@ -172,7 +192,13 @@ def _disconnect(pybullet, client):
 PYBULLET = Engine(
     "pybullet",
     3,
-    {"substeps": (1, 1), "iterations": (50, 1), "body": ("multibody", ("multibody", "rigid"))},
+    {
+        "substeps": (1, 1),
+        "iterations": (50, 1),
+        "residual": (1e-7, Between(0.0, 1.0)),
+        "erp": (0.2, Between(0.0, 1.0)),
+        "body": ("multibody", ("multibody", "rigid")),
+    },
     "python -m pip install pybullet==3.2.7, which has wheels for Linux x86-64 with Python up to 3.11",
     PybulletPeer,
 )

@@ -4,7 +4,7 @@
 
     x ← x + h v,  φ ← φ + h ω;    v ← damping^h v + h (g + f/m),  ω ← damping^h ω + h τ/I;
 
-then constraints and contact.
+then constraints (joints: see ``pymunk_joints``) and contact.
 
 All numbers are doubles. ``space.damping`` is 1 by default, no damping, and it is the factor that is left
 after one second. Bodies don't sleep by default. ``body.force`` and ``body.torque`` are used in the velocity
@@ -38,8 +38,9 @@ import math
 
 from ..scene import Unsupported
 from ..shapes import Point
-from .engine import Engine, Peer
+from .engine import Between, Engine, Peer
 from .forces import Forces
+from .pymunk_joints import Joiner
 
 
 class PymunkPeer(Peer):
@@ -57,6 +58,10 @@ class PymunkPeer(Peer):
         by_engine = settings["springs"] == "engine"
         if by_engine:
             self.space.add(*filter(None, (self._spring(pymunk, spring) for spring in scene.springs)))
+        joiner = Joiner(pymunk, scene, self.in_engine, self.space.static_body)
+        for constraint in (made for joint in scene.joints for made in joiner.made(joint)):
+            constraint.error_bias = settings["error_bias"]
+            self.space.add(constraint)
         drags = {i: law for i, law in scene.drags.items() if i in self.in_engine}
         if settings["drag"] == "engine" and drags:
             self.space.damping = math.exp(-self._common_rate(drags))
@@ -144,6 +149,7 @@ PYMUNK = Engine(
     {
         "substeps": (1, 1),
         "iterations": (10, 1),
+        "error_bias": (0.9**60, Between(0.0, 1.0)),
         "springs": ("engine", ("engine", "force")),
         "drag": ("force", ("engine", "force")),
     },

@@ -3,8 +3,8 @@ only.
 
 ``python -m reference.peers.recorded`` makes all of them anew, where the engines are. Each is a JSON file in
 ``recordings/``: engine, version, platform; the case with its parameters, dt, record_every and the engine's
-settings; and the motion. The tests check our integrators against them everywhere, and where the engine is
-installed record again and compare.
+settings; and the motion. The tests check our integrators (of trees: ten lines of NumPy) against them
+everywhere, and where the engine is installed record again and compare.
 
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
@@ -30,6 +30,9 @@ RECORDINGS = Catalogue(
         "pybullet_tumbling_box": ("pybullet", "tumbling_box", {}, 480, 48, {"body": "multibody"}),
         "pybullet_tumbling_box_rigid": ("pybullet", "tumbling_box", {}, 480, 48, {"body": "rigid"}),
         "pybullet_spring": ("pybullet", "spring", {}, 1000, 100, {}),
+        "pybullet_double_pendulum": ("pybullet", "double_pendulum", {"dimension": 3}, 2000, 100, {}),
+        "pybullet_chain": ("pybullet", "chain", {"dimension": 3, "duration": 1.0}, 1000, 50, {}),
+        "pymunk_double_pendulum": ("pymunk", "double_pendulum", {}, 2000, 100, {"error_bias": 0.0}),
         "pymunk_planar_flight": ("pymunk", "planar_flight", {}, 480, 48, {}),
         "pymunk_spring": ("pymunk", "spring", {"dimension": 2}, 1000, 100, {}),
     },

@@ -1,5 +1,6 @@
 """Every judge passes what is right, and can fail: on a wrong number, NaN, a wrong shape, a wrong kind."""
 
+import json
 import math
 
 import numpy as np
@@ -9,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
+from exercises.grader.check import Call, Case, Check
 from exercises.grader.judges import (
     all_of,
     an_array,
@@ -17,10 +19,14 @@ from exercises.grader.judges import (
     equal,
     fitted_order,
     on_answer,
+    order_of_runs,
     unordered,
     up_to_sign,
     word,
 )
+from exercises.grader.marking import mark
+from exercises.grader.replies import pack
+from exercises.grader.report import report
 
 ROWS = np.array([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]])
 
@@ -195,3 +201,20 @@ def test_all_of_tells_the_worst():
     assert judged(judge, 1.05, 2.1).expected == 2.0
     assert judged(judge, 9.0, 2.0).expected == 1.0
     assert not judged(judge, 1.0, math.nan).passed
+
+
+def test_an_answer_that_a_judge_stumbles_over_is_wrong_and_not_our_fault():
+    """Errors of 1e-20 and 1e308, whose ratio is 0 in double precision, have no logarithm."""
+    judge = order_of_runs(lambda values: (1.0, np.zeros((2, 1))), (1, 2, 4), 3, 0.1)
+    runs = [np.zeros((n + 1, 1)) for n in (1, 2, 4)]
+    for run, error in zip(runs, (1.0, 1e-20, 1e308), strict=True):
+        run[-1] = error
+    with pytest.raises(ValueError):
+        judge({}, runs)
+    check = Check(
+        "order", "its order", 5, (Case("runs", {}),), lambda stream: [], judge, "", "", "",
+        calls=lambda values: [Call("run", ())] * 3,
+    )  # fmt: skip
+    result = mark(check, lambda text: json.dumps({"replies": [{"value": pack(run)} for run in runs]}))
+    assert result.earned == 0 and "too odd" in result.outcomes[0].verdict.complaint
+    assert "too odd" in report(result, "page")

@@ -19,7 +19,7 @@ from hypothesis.extra.numpy import array_shapes, arrays
 import exercises
 from exercises.grader.cells import read_cells
 from exercises.grader.marking import mark, mark_all
-from exercises.grader.replies import Student
+from exercises.grader.replies import Student, encode
 from exercises.grader.report import report
 from exercises.grader.shell import check_cells
 from exercises.grader.student import StudentProcess
@@ -246,6 +246,43 @@ def test_the_live_engine_says_what_was_recorded(unit, oracle, tmp_path):
     for i, values in enumerate(oracle.inputs()):
         live, recorded = oracle.run(**values), oracle.recorded(oracle.key(values))
         assert difference(recorded, live)[0] < 1e-11, f"case {i}"
+
+
+@each_engine
+def test_the_formula_says_what_the_engine_says(unit, oracle):
+    """Of what is not recorded, where the engine is not installed: on the recordings and on hidden cases."""
+    if oracle.model is None:
+        pytest.skip("it has none: only recorded cases are asked")
+    from exercises.grader.judges import difference
+
+    for values in oracle.pool:
+        assert difference(oracle.recorded(oracle.key(values)), oracle.model(values))[0] < 1e-11
+    if importlib.util.find_spec(oracle.engine) is not None:
+        drawn = [case.values for check in unit.checks for seed in SEEDS_FAST for case in check.cases(seed)]
+        asked = [values for values in drawn if set(values) == set(oracle.pool[0])]
+        assert asked
+        for values in asked:
+            assert difference(oracle.run(**values), oracle.model(values))[0] < 1e-11
+
+
+@each_unit
+def test_to_know_the_recordings_earns_nothing(unit):
+    """The open repository holds them: a table of all recorded answers passes no check of an engine."""
+    for check in unit.checks:
+        if check.source is None:
+            continue
+        known = {encode(values): oracle for oracle in engines_of(unit) for values in oracle.pool}
+
+        def by_heart(*arguments, check=check, known=known):
+            names = check.visible[0].values
+            values = dict(zip(names, arguments, strict=True))
+            oracle = known.get(encode(values))
+            return 0.0 if oracle is None else oracle.recorded(oracle.key(values))
+
+        result = mark(check, Submission(unit.slug, {check.function or check.name: by_heart}))
+        assert not result.passed
+        if check.calls is None:  # the table was asked for what it knows
+            assert all(one.verdict.passed for one in result.outcomes if not one.case.hidden)
 
 
 @each_engine

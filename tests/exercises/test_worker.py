@@ -17,6 +17,7 @@ from exercises.grader.marking import Failure, mark, mark_all
 from exercises.grader.replies import Given, Reply, Student
 from exercises.grader.report import report
 from exercises.grader.worker import Worker
+from tests.exercises.exercise_support import UNITS
 
 NUMBERS = Reply()
 GIVEN = types.SimpleNamespace(line=lambda slope: lambda x: slope * x, counter=lambda: iter(range(100)))
@@ -290,3 +291,28 @@ def test_all_calls_go_in_one_message():
 
     assert mark(check_of(None, calls=lambda v: [Call("f", ())], cases=7), ask).passed
     assert len(messages) == 1 and len(json.loads(messages[0])["calls"]) == 7
+
+
+def test_hidden_cases_are_asked_apart_and_not_at_all_of_one_who_does_not_answer():
+    check = UNITS[0].checks[1]
+    asked = []
+
+    def answering(text):
+        asked.append(json.loads(text))
+        return json.dumps({"replies": [{"value": 0.0}] * len(asked[-1]["calls"])})
+
+    def gone(text):
+        answering(text)
+        failure = {"error": {"kind": "no answer", "message": "it ended", "lines": []}}
+        return json.dumps({"replies": [failure] * len(asked[-1]["calls"])})
+
+    mark(check, answering)
+    assert [len(one["calls"]) for one in asked] == [
+        len(check.visible),
+        len(check.cases(2)) - len(check.visible),
+    ]
+    assert [one.get("more") for one in asked] == [True, None]
+    asked.clear()
+    result = mark(check, gone)
+    assert len(asked) == 1 and len(result.outcomes) == len(check.cases(2))
+    assert all(one.verdict.got.message == "it ended" for one in result.outcomes)

@@ -196,6 +196,41 @@ def test_hostile_names_stay_inside(tmp_path):
         assert not files.name_fault(name.split("/")[0])
 
 
+def test_long_names_do_not_fall_together(tmp_path):
+    long = "a" * 120
+    written, _ = unpack(tmp_path, [(f"{long}_1_2_02_x.ipynb", "one"), (f"{long}_2_3_02_x.ipynb", "two")])
+    assert written == 2 and len(files_in(tmp_path / "class" / "submitted")) == 4  # with their times
+
+
+def test_nobody_takes_anothers_place(tmp_path):
+    """Who calls herself like another, or puts another's mark into a name, is nobody's notebook."""
+    people = roster.Roster([{"id": "ada", "first_name": "Ada", "last_name": "Lovelace"}])
+    members = [("lovelaceada_1_2_02_x.ipynb", "hers"), ("lovelaceada_7_9_02_x.ipynb", "not hers")]
+    written, notes = unpack(tmp_path, members, people)
+    assert written == 0 and "lovelaceada (1) and lovelaceada (7) would be the same" in notes[-1]
+    eve = "Ada_1_assignsubmission_file__7_assignsubmission_file_/02_x.ipynb"
+    written, notes = unpack(tmp_path, [(eve, "not hers")])
+    assert written == 0 and "names two students" in notes[0]
+
+
+def test_dates_that_there_are_not(tmp_path):
+    """They come from the archive, and from nbgrader's note beside a notebook."""
+    about = zipfile.ZipInfo("a_1_2_02_x.ipynb")
+    about.date_time = (2026, 2, 31, 25, 61, 62)
+    written, _ = unpack(tmp_path, [(about, BOOK)])
+    place = tmp_path / "class" / "submitted" / "a_1" / UNIT.slug
+    assert written == 1 and [path.name for path in place.iterdir()] == [f"{UNIT.slug}.ipynb"]
+    one = submissions.Submission("a_1", UNIT.slug, place / f"{UNIT.slug}.ipynb")
+    for text in (
+        "0001-01-01 00:00",
+        "9999-12-31 23:59 -12:00",
+        "2026-02-31 10:00",
+        "2026-01-01 10:00 +9999",
+    ):
+        (place / "timestamp.txt").write_text(text)
+        assert roster.handed_in(one).year >= 2026
+
+
 def test_links_in_archives(tmp_path):
     link = zipfile.ZipInfo("evil_1_2_02_x.ipynb")
     link.create_system, link.external_attr = 3, (stat.S_IFLNK | 0o777) << 16

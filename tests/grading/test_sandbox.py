@@ -23,6 +23,7 @@ from exercises.grader.sandbox import (
     folder,
     isolation,
     kernel,
+    limits,
     nursery,
     seccomp,
     syscalls,
@@ -32,6 +33,7 @@ from exercises.grader.sandbox.survey import INTERPRETER, ROOT, survey
 from exercises.grader.sandbox.wire import Gone, Wire
 from tests.grading.corpus_support import SOLUTION, UNIT, earned, grade, notebook_of, read_cells
 
+pytestmark = pytest.mark.xdist_group("sandbox")  # in one process, with one parent of each kind
 KINDS = [kind for kind in nursery.KINDS if kind != "none"]
 each_kind = pytest.mark.parametrize("kind", KINDS)
 RIGHT = read_cells(SOLUTION)
@@ -240,10 +242,38 @@ def test_tags_and_metadata_skip_no_cell():
     assert earned(grade(notebook_of(RIGHT, **tags))[1]) == 100
 
 
+def test_a_notebook_in_another_dress_is_the_same():
+    """As old and foreign programs save it: no metadata, no ids, lines of Windows, a byte order mark, the same
+    key twice, text between the cells that looks like code."""
+    cells = [
+        {"cell_type": "code", "source": cell.replace("\n", "\r\n").splitlines(keepends=True)}
+        for cell in RIGHT
+    ]
+    aside = {"cell_type": "markdown", "source": "def plate(*arguments):\n    return 0"}
+    raw = {"cell_type": "raw", "source": ["1/0"], "metadata": None}
+    book = json.dumps({"nbformat": 4, "nbformat_minor": 0, "cells": [aside, *cells, raw, aside]}, indent=1)
+    twice = '{"cells": [],' + book.removeprefix("{")
+    box, results = grade(b"\xef\xbb\xbf" + twice.replace("\n", "\r\n").encode())
+    assert (box.status, earned(results), box.troubles) == ("ok", 100, [])
+
+
 # --- limits -------------------------------------------------------------------------------------------------
 
 
-def test_a_submission_ends_in_its_time():
+def test_an_overloaded_machine_gives_more_time(monkeypatch):
+    """And no more than three times as much, however busy a notebook makes it."""
+    processors = len(os.sched_getaffinity(0))
+    for load, times in ((0.0, 1.0), (processors, 1.0), (2 * processors, 2.0), (99 * processors, 3.0)):
+        monkeypatch.setattr(os, "getloadavg", lambda load=load: (load, 0.0, 0.0))
+        assert limits.stretch() == times
+    cells = notebook_of(["import time\ntime.sleep(1.0)"])
+    assert grade(cells, Limits(cell=0.6))[0].troubles == []
+    monkeypatch.setattr(os, "getloadavg", lambda: (0.0, 0.0, 0.0))
+    assert "longer than" in grade(cells, Limits(cell=0.6))[0].troubles[0].text
+
+
+def test_a_submission_ends_in_its_time(monkeypatch):
+    monkeypatch.setattr(os, "getloadavg", lambda: (0.0, 0.0, 0.0))
     endless = ["while True: pass"] * 30
     started = time.monotonic()
     box, results = grade(notebook_of(endless), Limits(cell=0.5, question=1.0, total=4.0))

@@ -35,7 +35,19 @@ LAYERS = (
     ("trajectory",),
     ("simulators",),
     ("continuum",),
-    ("cases", "peers", "measure", "bench", "bench_methods", "bench_report", "cluster", "view", "__main__"),
+    (
+        "cases",
+        "peers",
+        "measure",
+        "bench",
+        "bench_contests",
+        "bench_growth",
+        "bench_methods",
+        "bench_report",
+        "cluster",
+        "view",
+        "__main__",
+    ),
 )
 LEVEL = {name: level for level, names in enumerate(LAYERS) for name in names}
 

@@ -5,7 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from reference import bench, bench_methods, bench_report
+from reference import bench, bench_growth, bench_methods, bench_report
+from reference.bench_contests import CONTESTS, Contest
 from reference.peers import ENGINES
 
 
@@ -37,7 +38,7 @@ def test_comparison_takes_our_time_at_the_engines_error():
     assert [entry[0] for entry in compared] == ["pymunk"] * 3  # half a scale off is no answer
     np.testing.assert_allclose([entry[1] for entry in compared], [1e-1, 1e-3, 1e-4])
     np.testing.assert_allclose([entry[3] for entry in compared], [0.25, 0.025, np.inf])
-    text = bench_report.summary(ROWS)
+    text = "\n".join(bench_report.comparison_of("flight", ROWS))
     assert "0.25 at 1e-01" in text and "inf at 1e-04" in text
 
 
@@ -69,7 +70,7 @@ def test_missing_engine_is_said_and_left_out(tmp_path, capsys, monkeypatch):
 
 
 def test_cases_by_name_or_label_and_unknown_ones(capsys):
-    assert bench.chosen_labels([]) == list(bench_methods.CONTESTS)
+    assert bench.chosen_labels([]) == [*CONTESTS, *bench_growth.GROWTHS]
     assert bench.chosen_labels(["spring"]) == ["spring/2d", "spring/3d"]
     assert bench.chosen_labels(["spring/2d", "heavy_top"]) == ["spring/2d", "heavy_top"]
     with pytest.raises(SystemExit):
@@ -77,18 +78,64 @@ def test_cases_by_name_or_label_and_unknown_ones(capsys):
     assert "case must be one of free_fall/2d" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("label", list(bench_methods.CONTESTS))
+@pytest.mark.parametrize("label", list(CONTESTS))
 def test_every_contest_has_engines_of_its_kind(label):
-    methods = bench_methods.methods_of(label)
+    contest = CONTESTS[label]
+    methods = contest.methods()
     engines = {method.engine for method in methods} - {None}
     dimension = methods[0].case.scene.dimension
-    assert engines == {e.name for e in ENGINES.values() if e.available and e.dimension == dimension}
+    fit = {e.name for e in ENGINES.values() if contest.both or e.dimension == dimension}
+    assert engines == {name for name in fit if ENGINES[name].available}
+    assert all(ENGINES[m.engine].dimension == m.case.scene.dimension for m in methods if m.engine)
     assert len({method.name for method in methods}) == len(methods)
 
 
 def test_a_ladder_ends_and_notes_what_the_engine_refuses():
-    for method in bench_methods.methods_of("torque_free_top"):
+    for method in CONTESTS["torque_free_top"].methods():
         if method.name in ("splitting", "pybullet"):
             rows = bench_methods.ladder(method, 1e-3)
             assert rows[-1][2] == "ok"
             assert (method.engine is None) or rows[0][2].startswith("refused: pybullet can turn")
+
+
+def test_both_engines_meet_in_one_contest():
+    engines = {"pymunk": ({"error_bias": 0.0},), "pybullet": ({},)}
+    contest = Contest("both", "double_pendulum", {"duration": 0.5}, (), engines, both=True)
+    rows = contest.measure(2e-3, 1, lambda message: None)
+    for engine in {method.engine for method in contest.methods()}:
+        errors = [r["error"] for r in rows if r["settings"]["engine"] == engine and r["status"] == "ok"]
+        assert errors[-1] < 0.05 and errors[-1] < errors[0]
+
+
+def growing(seconds):
+    rows = []
+    for n, time in seconds.items():
+        rows.append(row("rk4 tree", time, None))
+        rows[-1]["settings"]["n"] = n
+    return rows
+
+
+def test_growth_is_a_power():
+    rows = growing({10: 5e-6, 100: 2e-5, 1000: 2e-4, 3000: 6e-4, 10_000: 2e-3})
+    assert bench_report.power(rows) == pytest.approx(1.0)
+    assert bench_report.power(growing({10: 1e-6, 100: 1e-4})) == pytest.approx(2.0)
+    assert np.isnan(bench_report.power(rows[:1]))
+    text = bench_report.growth_table("links", rows)
+    assert "n=10000" in text and "2000.0   n^1.00" in text
+
+
+def test_growth_stops_where_it_is_slow_or_refused(tmp_path):
+    engines = {"pymunk": ({},), "pybullet": ({},)}
+    growth = bench_growth.Growth("links", "chain", {"dimension": 2}, (2, 40, 160, 200), (), engines)
+    rows = growth.measure(1.0, 1, lambda message: None)
+    sizes = {e: [r["settings"]["n"] for r in rows if r["settings"]["engine"] == e] for e in ENGINES}
+    if ENGINES["pymunk"].available:
+        assert sizes["pymunk"] == [2, 40, 160, 200]
+        assert all(r["cpu_s"] > 0 for r in rows if r["settings"]["engine"] == "pymunk")
+        short = growth.measure(0.0, 1, lambda message: None)
+        assert {r["settings"]["n"] for r in short} == {2}
+    if ENGINES["pybullet"].available:
+        assert sizes["pybullet"] == [2, 40, 160]
+        assert "refused: pybullet's trees hold up to 127 links" in growth.table(rows)
+    growth.plot(rows, tmp_path / "links.png")
+    assert (tmp_path / "links.png").stat().st_size > 10_000

@@ -71,6 +71,7 @@ print(simulation.state.velocity[0, 1], sum(stats.cache_hits.values()), sum(stats
 
 
 @needs_numba
+@pytest.mark.slow
 def test_the_cache_hits_and_an_edited_helper_is_never_served_stale(tmp_path):
     shutil.copytree(ROOT / "reference", tmp_path / "reference", ignore=shutil.ignore_patterns("__pycache__"))
     assert python(SMALL, tmp_path).split() == ["-0.1", "0", "1"]

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -15,10 +16,12 @@ from scipy.spatial.transform import Rotation
 import independent_joints as apart
 from independent_joints import PARTNERS, PLANE, SPACE
 from reference import BallJoint, Box, Distance, Fixed, Hinge, Point, Polygon, Scene, Slider, compiled
+from reference.correction import displace
 from reference.joints.row import frame
 from reference.layout import Bodies
 from reference.mechanism import rigid_rows, soft_rows
 from reference.rows import add_rows, dense, fill_rows, make_jacobian, row_times
+from reference.rows.frames import fill_frames
 
 ROOT = Path(__file__).resolve().parents[2]
 EVERY = [(kind, d) for d, kinds in ((3, SPACE), (2, PLANE)) for kind in kinds]
@@ -85,6 +88,53 @@ def test_w_and_its_rate_are_the_derivatives_of_φ(name, d, partners, where):
         assert_allclose(out.rate, rate, rtol=0, atol=2e-6)
         if where == "at the start":
             assert_allclose(out.φ, 0, rtol=0, atol=1e-14)
+
+
+@every_kind
+def test_the_rate_is_that_of_J_at_constant_u(name, d):
+    """(J(h) u − J(−h) u) / 2h, off the joint; for the row of the coordinate as well."""
+    rng, h = np.random.default_rng(14), 1e-5
+    law = {"stiffness": 1} if kind_of(name, d).driven else {}
+    for _ in range(3):
+        bodies, state = anywhere(name, d, "two bodies", rng, **law)
+        for rows in (rigid_rows(bodies), soft_rows(bodies)):
+            w = []
+            for t in (-h, h):
+                moved = bodies.state()
+                moved.y[:] = state.y
+                displace(moved, t * state.v, t * state.ω)
+                w.append(filled(bodies, rows, moved)[1] @ state.u)
+            rate = filled(bodies, rows, state)[0].rate
+            assert_allclose((w[1] - w[0]) / (2 * h), rate, rtol=0, atol=1e-6)
+
+
+@pytest.mark.parametrize("d", [3, 2])
+@pytest.mark.parametrize("which", ["a bead on a rod", "a ring on a bead"])
+def test_points_follow_and_carry(d, which):
+    """A Point as j slides along a body; a Point as i carries a body, with directions that never turn."""
+    rng, kinds = np.random.default_rng(13), SPACE if d == 3 else PLANE
+    name = "Slider" if "rod" in which else "BallJoint" if d == 3 else "Hinge"
+    bead, body = (1, 0) if name == "Slider" else (0, 1)
+    scene = Scene(gravity=np.zeros(d))
+    for k in range(2):
+        solid = Box((0.3, 0.4, 0.5)) if d == 3 else Polygon([(0, 0), (1, 0), (0, 1)])
+        position = apart.POINT[:d] if k == bead else rng.normal(size=d)
+        inertia = None if k == bead else apart.TENSOR if d == 3 else 0.3
+        scene.add(Point() if k == bead else solid, mass=1, inertia=inertia, position=position)
+    scene.join(kinds[name].declare(0, 1))
+    bodies = Bodies(scene)
+    for _ in range(3):
+        motions = steady_motions(bodies, (body,), rng, off=True)
+        v, away = rng.normal(size=(2, d))
+        motions[bead] = lambda t, v=v, away=away: apart.slide(away + v * t)
+        φ, w, rate = φ_and_derivatives(kinds[name], bodies, motions, 0, 1)
+        state, _ = apart.state_of(bodies, motions)
+        out, J = filled(bodies, rigid_rows(bodies), state)
+        m = d - 1 if name == "Slider" else d  # no rows for an orientation
+        assert len(J) == m
+        assert_allclose(out.φ, φ[:m], rtol=0, atol=1e-13)
+        assert_allclose(J @ state.u, w[:m], rtol=0, atol=2e-7)
+        assert_allclose(out.rate, rate[:m], rtol=0, atol=2e-6)
 
 
 # --- what a joint allows, and what it does not --------------------------------------------------------------
@@ -453,3 +503,37 @@ def test_rows_are_the_same_compiled_and_plain():
     for name, numbers in ours.items():
         scale = max(map(abs, numbers), default=0)
         assert_allclose(numbers, plain[name], rtol=0, atol=1e-12 * scale, err_msg=name)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not compiled.COMPILED, reason="without Numba, everything is slow")
+def test_rows_cost_no_more_than_their_arithmetic():
+    """A hundred hinges beside a hundred cosines and sines: 6 times its cost; 400 with arrays counted."""
+    scene = Scene(gravity=(0, 0))
+    for k in range(100):
+        scene.add(Polygon([(-1, -1), (1, -1), (0, 1)]), position=(k, 0), group="chain")
+        scene.join(Hinge(k, k - 1 if k else None, point=(k - 0.5, 0)))
+    bodies = Bodies(scene)
+    rows, state = rigid_rows(bodies), bodies.state()
+    out = make_jacobian(len(rows.kind), 100, 2)
+    cost = {}
+    for many in (many_rows, many_frames, many_rows, many_frames):
+        many(rows, state, out, 1)
+        start = time.process_time()
+        many(rows, state, out, 5000)
+        cost[many] = min(cost.get(many, np.inf), time.process_time() - start)
+    assert cost[many_rows] < 40 * cost[many_frames]
+
+
+@compiled.compiled
+def many_rows(rows, state, out, times):
+    """fill_rows, over and over."""
+    for _ in range(times):
+        fill_rows(rows, state, out)
+
+
+@compiled.compiled
+def many_frames(rows, state, out, times):
+    """Only each body's cosine and sine."""
+    for _ in range(times):
+        fill_frames(state, out.frame)

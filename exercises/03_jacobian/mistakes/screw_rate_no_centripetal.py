@@ -5,10 +5,9 @@
 
 
 # %%
+whole = screw_rate
+
+
 def screw_rate(axis, arm_i, arm_j, gap, pitch, u):
-    v_i, omega_i, v_j, omega_j = np.split(u, 4)
-    axis_rate = np.cross(omega_i, axis)
-    apart_rate = v_j + np.cross(omega_j, arm_j) - v_i - np.cross(omega_i, arm_i)
-    carried = np.cross(omega_i, axis_rate) @ (gap * axis)
-    thread = pitch / (2 * np.pi) * axis_rate @ (omega_j - omega_i)
-    return 2 * axis_rate @ apart_rate + carried - thread
+    inward = [np.cross(omega, np.cross(omega, arm)) for omega, arm in ((u[3:6], arm_i), (u[9:], arm_j))]
+    return whole(axis, arm_i, arm_j, gap, pitch, u) - axis @ (inward[1] - inward[0])

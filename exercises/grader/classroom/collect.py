@@ -4,6 +4,7 @@ No path of the archive is ever used as a path here: names are only read for whos
 written has names of our own. How much is unpacked is counted as it is unpacked, whatever the archive claims.
 """
 
+import contextlib
 import datetime
 import re
 import stat
@@ -21,10 +22,12 @@ MOST_BYTES = (
 )  # all notebooks together, unpacked: this, and so many times the archive's own size
 MOST_PACKED = 200  # times smaller than what it holds, if that is large: text 10 times, a bomb 1000 times
 LARGE = 5_000_000
+LONGEST_PART, LONGEST_USER = 40, 20  # of a student's name, and of the number behind it that makes it unique
 CANVAS = re.compile(
     r"(?P<name>[^_]+)_(?P<late>LATE_)?(?P<user>\d+)_(?P<upload>\d+)_(?P<file>.+)", re.IGNORECASE
 )
-MOODLE = re.compile(r"(?P<name>.+?)_(?P<user>\d+)_assignsubmission_(?:file|onlinetext)_?(?P<file>.*)")
+MARK = "_assignsubmission_"
+MOODLE = re.compile(rf"(?P<name>.+?)_(?P<user>\d+){MARK}(?:file|onlinetext)_?(?P<file>.*)")
 
 
 @dataclass(frozen=True)
@@ -44,16 +47,16 @@ def collect(path, folder, roster, unit=None):
     unit = exercises.slug(unit) if unit else None
     try:
         with zipfile.ZipFile(path) as archive:
-            return _collect(archive, folder, roster, unit)
+            return _collect(archive, path.stat().st_size, folder, roster, unit)
     except (zipfile.BadZipFile, OSError, NotImplementedError) as error:
         raise Trouble(f"{path} cannot be read as a ZIP archive: {line(error)}.") from None
 
 
-def _collect(archive, folder, roster, unit):
+def _collect(archive, size, folder, roster, unit):
     members = archive.infolist()
     if len(members) > MOST_MEMBERS:
         raise Trouble(f"The archive holds {len(members):,} files; at most {MOST_MEMBERS:,} are taken.")
-    notes, latest = [], {}
+    notes, latest, users = [], {}, {}
     for member in members:
         found = _found(member, notes)
         if found is None:
@@ -64,14 +67,21 @@ def _collect(archive, folder, roster, unit):
             if of_unit is None:
                 notes.append(f"{line(member.filename)!r}: which unit? Say --unit")
             continue
+        users.setdefault(student, {})[found.user] = line(found.name)
         key, rank = (student, of_unit), (found.file == f"{of_unit}.ipynb", found.order)
         if key in latest:
             notes.append(f"{line(student)}/{of_unit}: several notebooks; the last one was taken")
         if key not in latest or rank > latest[key][0]:
             latest[key] = rank, found
     free, times = MOST_BYTES
-    left, written = free + times * sum(member.compress_size for member in members), 0
+    left, written = free + times * size, 0
     for (student, of_unit), (_, found) in sorted(latest.items()):
+        if len(users[student]) > 1:  # names can be chosen, numbers cannot
+            both = " and ".join(f"{name} ({number})" for number, name in users[student].items())
+            notes.append(
+                f"{line(student)} was left out: {both} would be the same; give their ids in roster.csv"
+            )
+            continue
         try:
             data = unpacked(archive, found.member, min(left, LARGEST_NOTEBOOK))
         except (
@@ -108,6 +118,9 @@ def _found(member, notes):
     if name.startswith(("/", "\\")) or ".." in parts or re.match(r"[A-Za-z]:", name) or "\0" in name:
         notes.append(f"{line(name)!r} was left out: its path leads out of the archive")
         return None
+    if name.count(MARK) > 1:
+        notes.append(f"{line(name)!r} was left out: it names two students")
+        return None
     if len(parts) <= 2 and (match := CANVAS.fullmatch(parts[-1])):
         return Found(
             member,
@@ -132,8 +145,9 @@ def _when(member):
 def student_of(found, roster, notes):
     """The roster's id; without a roster, the name and number that the archive tells."""
     if roster is None:
-        made = re.sub(r"[^\w.@+-]+", "_", f"{found.name}_{found.user}").strip("._-")[:80]
-        return made if not name_fault(made) else f"user_{found.user[:40]}"
+        made = re.sub(r"[^\w.@+-]+", "_", found.name[:LONGEST_PART]).strip("._-")
+        made = f"{made}_{found.user[:LONGEST_USER]}".strip("_")
+        return made if not name_fault(made) else f"user_{found.user[:LONGEST_USER]}"
     student = roster.known_as(found.user, "canvas_id", "moodle_id", "lms_user_id")
     if student is None:
         named = {
@@ -200,11 +214,10 @@ def _keep(data, folder, student, unit, found):
             private=True,
         )
     write(path, data)
-    with_time = (
-        datetime.datetime(*found.member.date_time).astimezone() if found.member.date_time[0] > 1980 else None
-    )
-    if with_time:
-        write(place / "timestamp.txt", with_time.isoformat() + "\n")
+    with contextlib.suppress(ValueError, OverflowError):  # a date that there is not
+        if found.member.date_time[0] > 1980:
+            when = datetime.datetime(*found.member.date_time).astimezone()
+            write(place / "timestamp.txt", when.isoformat() + "\n")
     append(
         folder / "instructor" / "collected.jsonl",
         {

@@ -21,7 +21,6 @@ from exercises.grader.classroom.files import line, printable
 from exercises.grader.classroom.told import told
 from exercises.grader.marking import mark_in_turn
 
-STATUSES = ("ok", "rejected", "timeout", "crashed", "unsandboxed", "missing", "grader_error")
 MOST_TROUBLES = 30
 
 

@@ -156,6 +156,6 @@ def handed_in(submission):
             text = re.sub(r" ?UTC$", "+00:00", found.group(0)).replace(" +", "+").replace(" -", "-")
             try:
                 return datetime.datetime.fromisoformat(text).astimezone()
-            except ValueError:
+            except (ValueError, OverflowError):  # a date that there is not, or that no clock shows
                 pass
     return datetime.datetime.fromtimestamp(submission.path.lstat().st_mtime).astimezone()

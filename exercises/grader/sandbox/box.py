@@ -1,4 +1,5 @@
-"""One submission in the sandbox: its cells are loaded, then each question is put to a fresh worker."""
+"""One submission in the sandbox: its cells are loaded, then each question is put to a fresh worker, in one
+message or in several."""
 
 import json
 import time
@@ -9,7 +10,7 @@ from exercises.grader.replies import BadReply, parse
 from exercises.grader.sandbox import nursery as home
 from exercises.grader.sandbox.files import compiled, contents
 from exercises.grader.sandbox.isolation import choose
-from exercises.grader.sandbox.limits import Limits
+from exercises.grader.sandbox.limits import Limits, stretch
 from exercises.grader.sandbox.wire import Gone
 from exercises.grader.sandbox.words import Trouble, clean
 from exercises.grader.sandbox.workers import Worker
@@ -70,19 +71,21 @@ class Sandbox:
 
     def ask(self, text):
         """The response to a request of marking.mark; where none comes, one that says so for every call."""
-        self.started = time.monotonic()
+        self.started, request, goes_on = time.monotonic(), json.loads(text), False
         try:
             if self.status == "rejected":
                 raise Gone(self.reason)
-            return self._answer(text)
+            answer, goes_on = self._answer(text, len(request["calls"])), "more" in request
+            return answer
         except Gone as error:
             message = clean(error)
             if self.status != "rejected":
                 self._tell("timeout" if error.late else "crashed", message)
             failure = {"error": {"kind": "no answer", "message": message, "lines": []}}
-            return json.dumps({"replies": [failure] * len(json.loads(text)["calls"])})
+            return json.dumps({"replies": [failure] * len(request["calls"])})
         finally:
-            self._end()
+            if not goes_on:
+                self._end()
             self.seconds += time.monotonic() - self.started
 
     def task(self, name, extra=None):
@@ -102,11 +105,11 @@ class Sandbox:
 
     # --- workers --------------------------------------------------------------------------------------------
 
-    def _answer(self, text):
+    def _answer(self, text, calls):
         if self.worker is None:
             self._open()
             self._run_cells(2 * self.limits.cell)
-        seconds = min(self.limits.question, self.limits.call * len(json.loads(text)["calls"]))
+        seconds = min(self.limits.question, self.limits.call * calls)
         self.worker.wire.send(text.encode() + b"\n", self._left(seconds))
         return self._reply(self._left(seconds))
 
@@ -180,9 +183,11 @@ class Sandbox:
         self.troubles.append(Trouble(number, self.titles[number - 1], clean(text), True))
 
     def _left(self, seconds):
-        left = min(seconds, self.limits.total - self.seconds - (time.monotonic() - self.started))
+        times = stretch()
+        total = times * self.limits.total
+        left = min(times * seconds, total - self.seconds - (time.monotonic() - self.started))
         if left <= 0:
-            raise Gone(f"the submission took longer than {self.limits.total:g} s in all", late=True)
+            raise Gone(f"the submission took longer than {total:.0f} s in all", late=True)
         return left
 
     def _last_words(self):

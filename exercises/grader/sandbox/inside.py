@@ -7,6 +7,7 @@ is sent back is our own word; after that it is the student's.
                                          → {"titles": [first line of each cell]} or {"rejected": why}
     {"run": [["whole" or "part" or "no", number], ...]}       → {"done": number, "error": ...} for each
     {"calls": [...]}                                          → {"replies": [...]}, and the end
+        with "more": true                                     → the same, and another message follows
     {"task": name, "extra": ...}                              → {"task": result}, and the end
     {"canary": {...}}                                         → {"canary": [what got through]}, and the end
 """
@@ -43,8 +44,9 @@ class Inside:
                 for mode, number in request["run"]:
                     self.send({"done": number, "error": self.run(mode, number)})
             else:
-                self.write(self.last_word(kind, request, line))
-                return
+                self.write(self.answer(kind, request, line))
+                if "more" not in request:
+                    return
 
     def open(self, request):
         """What to send back; a notebook's cells, too, to be sent in alone from the second time on."""
@@ -71,7 +73,7 @@ class Inside:
             return self.namespace.run_definitions(source, name)
         return self.namespace.run(source, name) if mode == "whole" else None
 
-    def last_word(self, kind, request, line):
+    def answer(self, kind, request, line):
         if kind == "calls":
             return self.worker.answer(line).encode()
         if kind == "task":

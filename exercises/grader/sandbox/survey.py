@@ -24,7 +24,7 @@ OURS = (
     *(f"exercises/grader/{name}.py" for name in ("__init__", "absent", "cells", "ipython", "numba_cache")),
     *(
         f"exercises/grader/{name}.py"
-        for name in ("replies", "worker", "classroom/__init__", "classroom/fingerprint")
+        for name in ("replies", "state", "worker", "classroom/__init__", "classroom/fingerprint")
     ),
     *(
         f"exercises/grader/sandbox/{name}.py"
@@ -74,18 +74,28 @@ def environment(scratch):
     }  # fmt: skip
 
 
-def command(code_or_module, *arguments):
-    """The interpreter itself, not a virtual environment's link to it: no site, no user's folders, no bytecode
-    written."""
-    return [INTERPRETER, "-I", "-S", "-B", "-X", "utf8", *code_or_module, *arguments]
+def command(code_or_module, *arguments, options=("-B",)):
+    """The interpreter itself, not a virtual environment's link to it: no site, no user's folders, and with -B
+    no bytecode written."""
+    return [INTERPRETER, "-I", "-S", *options, "-X", "utf8", *code_or_module, *arguments]
+
+
+_told = []  # what another process of the same grader has found
+
+
+def take(known):
+    """Spares this process the survey: `known` was made by another one, on this machine, in this run."""
+    _told[:] = [known]
 
 
 @functools.cache
 def survey():
+    if _told:
+        return _told[0]
     tools = _tools()
     path = tuple(dict.fromkeys(str(Path(tool).parent) for tool in tools))
-    done = subprocess.run(
-        command(("-c", _TELL), json.dumps([str(ROOT), *path])),
+    done = subprocess.run(  # it writes bytecode, where it may, of all that the parents are to load
+        command(("-c", _TELL), json.dumps([str(ROOT), *path]), options=()),
         capture_output=True, text=True, env=environment("/nonexistent"), cwd="/", timeout=120, check=False,
     )  # fmt: skip
     if done.returncode != 0:
