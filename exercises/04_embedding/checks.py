@@ -251,7 +251,7 @@ STEP = Check(
             "f_e is left out: b is the w after a step under f_e alone.", lambda v: right.step(v, force=0)
         ),
     ),
-    hint="u_free = u + dt M⁻¹ f_e; b = J u_free + share phi/dt; A = dt J M⁻¹ Jᵀ; then λ, u; x with the new u.",
+    hint="u_free = u + dt M⁻¹ f_e; b = J u_free + share phi/dt; A = dt J M⁻¹ Jᵀ; then λ; x with the new u.",
 )
 
 
