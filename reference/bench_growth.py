@@ -21,7 +21,7 @@ RATE = 1000  # steps a second
 class Growth:
     """A case whose parameter ``n`` grows through ``sizes``; else as a Contest.
 
-    A method takes part up to the first size at which a step takes longer than is granted, or is refused.
+    A method takes part up to the first size at which a step takes a quarter of what is granted or is refused.
     """
 
     label: str
@@ -56,7 +56,7 @@ class Growth:
                 except ValueError as refusal:
                     status = f"refused: {refusal}"
                 rows.append(row(self.label, method, steps, seconds, np.inf, status, n=n))
-                if not seconds < longest:
+                if not seconds * 4 < longest:  # the next size may take several times as long
                     stopped.add(method.name)
         return rows
 

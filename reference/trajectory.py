@@ -88,7 +88,8 @@ class Trajectory:
 
     time (T,), from 0; start_time: what the clock showed then, s; position (T, n, d); orientation (T, n, 4) or
     (T, n) in the plane; velocity (T, n, d); angular_velocity (T, n, 3) or (T, n); contacts[k]: ``Contacts``;
-    status: "ok", or "diverged", after which there are no more records; reason: a sentence; residual,
+    status: "ok", or "diverged", "singular", "torn", after which there are no more records;
+    reason: a sentence; residual,
     iterations (T,): of the step's own equation, the worst since the record before; settings: what was chosen;
     find_joint_forces: a function that does, or None.
     """
@@ -155,7 +156,7 @@ class Trajectory:
 
     def penetration(self):
         """The depth of the deepest contact, m: (T,); 0 where there is none."""
-        return np.array([max(self.contacts[k].depth, default=0.0) for k in range(len(self.time))])
+        return np.array([np.max(self.contacts[k].depth, initial=0.0) for k in range(len(self.time))])
 
     @cached_property
     def _spin(self):

@@ -32,7 +32,7 @@ PATIENCE = 300  # seconds for one notebook, on a busy machine with nothing compi
 
 pytestmark = [
     pytest.mark.browser,
-    pytest.mark.xdist_group("browser"),     # one server, one browser
+    pytest.mark.xdist_group("browser"),  # one server, one browser
     pytest.mark.skipif(not (CHROMIUM and DRIVER), reason="chromium or chromedriver is not installed"),
 ]
 
