@@ -24,13 +24,14 @@ import sys
 from pathlib import Path
 
 from . import cluster
+from .bench_contact import CONTACTS
 from .bench_contests import CONTESTS
 from .bench_growth import GROWTHS
 from .bench_report import HEADING
 from .cases.case import Catalogue
 from .peers import ENGINES
 
-STUDIES = Catalogue("case", {**CONTESTS, **GROWTHS})
+STUDIES = Catalogue("case", {**CONTESTS, **CONTACTS, **GROWTHS})
 
 DEFAULT_OUT = Path(__file__).resolve().parents[1] / "build" / "bench"
 

@@ -135,16 +135,20 @@ class Peer:
         """Step for ``duration``, a whole number of dt."""
         self._take(count_steps(duration, self.dt))
 
-    def run(self, duration, record_every=1):
-        """Step for ``duration``, recording every so many steps and at the end: a Trajectory."""
+    def run(self, duration, record_every=1, record_contacts=True):
+        """Step for ``duration``, recording every so many steps and at the end: a Trajectory.
+
+        record_contacts: reading them takes longer than stepping.
+        """
         steps, every = count_steps(duration, self.dt), inputs.whole("record_every", record_every, least=1)
         done = np.append(np.arange(0, steps, every), steps)
         states = [self.state]
-        if self.touching:
+        watched = self.touching is not None and bool(record_contacts)
+        if watched:
             self.watch()
         for count in np.diff(done):
             self._take(int(count))
-            if self.touching:
+            if watched:
                 self.touching.close()
             states.append(self.state)
             if not all(np.isfinite(array).all() for array in _arrays(states[-1])):
@@ -158,7 +162,7 @@ class Peer:
             time,
             *(np.array(history) for history in zip(*map(_arrays, states), strict=True)),
             contacts=self.touching.history(kept)
-            if self.touching
+            if watched
             else ContactHistory.empty(kept, self.scene.dimension),
             status="ok" if whole else "diverged",
             reason="" if whole else stopped,

@@ -4,14 +4,12 @@
 
 **The law.** A contact is solved for velocities, one row after the other, ``iterations`` times or until a
 sweep changes less than ``residual``, started from ``warm_start`` times the impulses of the step before
-(S16, S17). Friction has two tangents: coupled in one cone for bodies of their own, ``body="rigid"``. A pair's
-friction and restitution are the products of what its bodies have, and there is no other word for a pair: where
-that can't be this course's law (see ``touching``) the scene is refused. Approach slower than ``rest_speed``
-m/s does not bounce.
+(S16, S17). Friction has two tangents. A pair's friction and restitution are the products of what its bodies
+have, and there is no other word for a pair: where that can't be this course's law (see ``touching``) the
+scene is refused. Approach slower than ``rest_speed`` m/s does not bounce.
 
-**Overlap** is pushed out by the bodies' own velocities or, for rigid bodies that are deep in each other, by a
-second set (S13): the share ``contact_erp`` a step. What friction lets slip is pulled back likewise:
-``friction_erp``. Margins are set to 0; hulls would have 1 mm.
+**Overlap** is pushed out by the share ``contact_erp`` a step (S13); a small share calms stacks: the forces in
+ten boxes are right to 6e-11 with .05, at 1 kHz, and to 4e-5 with .2. Margins are set to 0; a hull has 1 mm.
 
 **Contacts are read** after each step, with forces: an impulse is that times h. With numSubSteps = k the force
 reads 1/k of what it is and is that of the last substep only; so where something can touch, each substep is a

@@ -59,7 +59,9 @@ def factors(scene, own, law):
     values = set(laws.values())
     if len(values) == 1:
         return [math.sqrt(values.pop())] * len(own), []
-    off = [(i, j) for (i, j), value in laws.items() if not math.isclose(own[i] * own[j], value, abs_tol=1e-15)]
+    off = [
+        (i, j) for (i, j), value in laws.items() if not math.isclose(own[i] * own[j], value, abs_tol=1e-15)
+    ]
     return list(own), off
 
 
