@@ -24,6 +24,7 @@ import sys
 from pathlib import Path
 
 from . import cluster
+from .bench_contact import CONTACTS
 from .bench_contests import CONTESTS
 from .bench_growth import GROWTHS
 from .bench_lcp import LCP_STUDIES
@@ -31,7 +32,7 @@ from .bench_report import HEADING
 from .cases.case import Catalogue
 from .peers import ENGINES
 
-STUDIES = Catalogue("case", {**CONTESTS, **GROWTHS, **LCP_STUDIES})
+STUDIES = Catalogue("case", {**CONTESTS, **CONTACTS, **GROWTHS, **LCP_STUDIES})
 
 DEFAULT_OUT = Path(__file__).resolve().parents[1] / "build" / "bench"
 

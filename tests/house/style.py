@@ -40,6 +40,7 @@ LAYERS = (
         "peers",
         "measure",
         "bench",
+        "bench_contact",
         "bench_contests",
         "bench_growth",
         "bench_lcp",
