@@ -23,13 +23,14 @@ from .compiled import compiled
 class Factored:
     """A = J M⁻¹ Jᵀ + diag(softness), over rows that concern s bodies each.
 
-    bodies (m, s) whole numbers: which bodies row i concerns, −1 for the world. J, B (m, s, k): rows of J and
-    of J M⁻¹ in the same places (what they hold for the world is never read). count: how many bodies there
-    are. softness (m,) at least 0: added to the diagonal, for rows that give way; None: rigid.
+    bodies (m, s) whole numbers: which bodies row i concerns, −1 for the world. J, B (m, s, k): rows of J
+    and of J M⁻¹ in the same places (what they hold for the world is never read). count: how many bodies
+    there are. softness (m,) at least 0: added to the diagonal, for rows that give way; None: rigid. mass
+    (count, k, k): M of each body, with B M = J, for methods that work on the velocities; None: not told.
     All arrays are copied. Raises ValueError or TypeError, which name the argument.
     """
 
-    def __init__(self, bodies, J, B, count, softness=None):
+    def __init__(self, bodies, J, B, count, softness=None, mass=None):
         self.count = inputs.whole("count", count)
         self.bodies = _checked_bodies(bodies, self.count)
         m, s = self.bodies.shape
@@ -44,7 +45,17 @@ class Factored:
         self.softness = inputs.array("softness", np.zeros(m) if softness is None else softness, (m,))
         if m and self.softness.min() < 0:
             raise ValueError(f"softness must be at least 0, but holds {self.softness.min():g}")
+        self.mass = None if mass is None else self._checked_mass(mass)
         self.shape = (m, m)
+
+    def _checked_mass(self, mass):
+        k = self.J.shape[2]
+        mass = inputs.array("mass", mass, (self.count, k, k))
+        if self.J.size:
+            again = np.einsum("msk,mskl->msl", self.B, mass[self.bodies])
+            if np.abs(again - self.J).max() > 1e-8 * np.abs(self.J).max():
+                raise ValueError("mass must be the M of B = J M⁻¹, but B M is not J")
+        return mass
 
     @classmethod
     def from_matrices(cls, J, mass_inverse, softness=None):

@@ -156,7 +156,7 @@ class Trajectory:
 
     def penetration(self):
         """The depth of the deepest contact, m: (T,); 0 where there is none."""
-        return np.array([max(self.contacts[k].depth, default=0.0) for k in range(len(self.time))])
+        return np.array([np.max(self.contacts[k].depth, initial=0.0) for k in range(len(self.time))])
 
     @cached_property
     def _spin(self):

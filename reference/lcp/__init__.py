@@ -34,19 +34,34 @@ answer, and history[k] is the residual (merit over ``scale``) after k iterations
 A step of a simulation takes the same kernel, ``for_form(kernel, Factors)``, by ``bind``, and calls it on
 arrays of its own.
 
-**Whole vectors** (Newton and gradients, unit 08): ``problem.A @ λ`` takes every form of A; ``problem.terms``
-and ``merit.gap`` give r_i.
+**Whole vectors** (Newton, unit 08): ``problem.w(λ)`` takes every form of A; what is left is one linear system
+an iteration, dense or sparse (``direct``). Gradients (``apgd``) are compiled as the sweeps are.
+
+**The exact cone** (unit 08): ``cone_gauss_seidel``, ``cone_apgd``, ``cone_newton``, for a ``ConeProblem``;
+a step takes ``cone_newton_kernel`` on arrays of its own.
 
 **Pivoting** (unit 06): ``kernel(A, b, lower, upper, λ, w, …) -> (pivots, code)`` on a dense A, ``toarray()``.
 
-Slides S11–S17; lectures/06_pivoting_lcp.md, lectures/07_iterative_lcp.md.
+Slides S11–S17; lectures/06_pivoting_lcp.md, lectures/07_iterative_lcp.md, lectures/08_newton_lcp.md.
 """
 
+from .apgd import apgd
+from .cone_apgd import cone_apgd
+from .cone_gauss_seidel import cone_gauss_seidel
+from .cone_newton import cone_newton
+from .fischer import fischer_newton
 from .gauss_seidel import gauss_seidel
+from .interior_point import interior_point
+from .min_map import min_map_newton
+from .nncg import nncg
 from .problem import LCP, ConeProblem
 from .solution import STATUSES, Solution
 
-_METHODS = (gauss_seidel,)
+_METHODS = (
+    gauss_seidel,
+    *(min_map_newton, fischer_newton, interior_point, nncg, apgd),
+    *(cone_gauss_seidel, cone_apgd, cone_newton),
+)
 SOLVERS = {method.__name__: method for method in _METHODS}
 
 __all__ = ["LCP", "SOLVERS", "STATUSES", "ConeProblem", "Solution", *SOLVERS]

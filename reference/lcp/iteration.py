@@ -57,11 +57,14 @@ def why_unsuitable(problem):
     return ""
 
 
-def iterate(method, problem, start, tolerance, max_iterations, *, options=(), why_not=why_unsuitable):
+def iterate(
+    method, problem, start, tolerance, max_iterations, *, options=(), functions=(), why_not=why_unsuitable
+):
     """Run a method and return its Solution.
 
     method(follow, row, rows, change, A, terms, λ, scale, tolerance, history, *options) -> (iterations, code),
-    see ``operators`` and ``gauss_seidel.sweeps``. options: values, or functions of the problem giving them.
+    see ``operators`` and ``gauss_seidel.sweeps``; functions: what it takes after ``change``.
+    options: values, or functions of the problem giving them.
     why_not(problem): a sentence if the method can't treat it, else "".
     """
     λ, tolerance, most = checked(problem, start, tolerance, max_iterations)
@@ -72,7 +75,7 @@ def iterate(method, problem, start, tolerance, max_iterations, *, options=(), wh
     if reason:
         return unsuitable(problem, λ, tolerance, reason)
     A = arrays(problem.A)
-    kernel = for_form(method, type(A))
+    kernel = for_form(method, type(A), *functions)
     given = tuple(option(problem) if callable(option) else option for option in options)
     history, done, aim = np.empty(most + 1), 0, tolerance
     with np.errstate(all="ignore"):  # the compiled form can't warn; the status will tell

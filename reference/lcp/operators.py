@@ -128,6 +128,16 @@ _FORMS = {
 
 
 @cache
-def for_form(method, form):
-    """The kernel that a method is for one form of A, ``Sparse`` or ``Factors``."""
-    return bind(method, *_FORMS[form])
+def for_form(method, form, *more):
+    """The kernel that a method is for one form of A, ``Sparse`` or ``Factors``; more: functions that the
+    method takes after the four.
+    """
+    return bind(method, *_FORMS[form], *more)
+
+
+@compiled
+def product(follow, row, A, λ, out):
+    """Fill out (n,) with A λ, whatever the form of A."""
+    x = follow(A, λ)
+    for i in range(len(λ)):
+        out[i] = row(A, i, λ, x)

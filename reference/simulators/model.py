@@ -8,9 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..choice import choose_solver
+from ..collision import count_pairs
 from ..integrators import INTEGRATORS
 from ..layout import Bodies
-from ..mechanism import rigid_rows, soft_rows
+from ..mechanism import bounded_rows, rigid_rows, soft_rows
 from ..multipliers import MULTIPLIERS
 from ..scene import Scene, Unsupported
 from ..shapes import Point
@@ -42,7 +43,7 @@ class Model:
     terms: tuple
     absent: tuple
     simulator: str
-    integrator: str
+    integrator: str | None
     why: str
     solver: str | None = None
     why_solver: str = ""
@@ -53,25 +54,37 @@ class Model:
         """Floating-point operations of a step, roughly: those of all terms, as often as the
         integrator evaluates them.
         """
-        return INTEGRATORS[self.integrator].evaluations * sum(term.operations for term in self.terms)
+        evaluations = INTEGRATORS[self.integrator].evaluations if self.integrator else 1
+        return evaluations * sum(term.operations for term in self.terms)
 
     def __str__(self):
         where = "in the plane" if self.dimension == 2 else "in space"
         lines = [
             f"{self.moving} moving bodies {where}, {self.rotating} of them rotate, {self.static} static: "
             f"{self.velocities} velocities in u",
-            f"simulator {self.simulator}, integrator {self.integrator}: {self.why}",
-            *(
-                [f"solver {self.solver} for the {self.rows} rows of the joints: {self.why_solver}"]
-                if self.solver
-                else []
-            ),
+            f"simulator {self.simulator}"
+            + (f", integrator {self.integrator}" if self.integrator else "")
+            + f": {self.why}",
+            *self._told_solver(),
             f"{'term':<24}{'count':>8}{'operations':>12}",
             *(f"{term.name:<24}{term.count:>8}{term.operations:>12}" for term in self.terms),
-            f"about {self.operations} operations a step",
+            f"about {self.operations} operations a step"
+            + (
+                ", and what the contacts cost, which depends on how many there are"
+                if not self.integrator
+                else ""
+            ),
             f"not built: {', '.join(self.absent)}",
         ]
         return "\n".join(lines)
+
+    def _told_solver(self):
+        """A line on the solver, if there is one."""
+        if not self.solver:
+            return []
+        parts = [f"the {self.rows} rows of the joints"] if self.rows else []
+        what = " and ".join(parts + ["the contacts"] if self.solver == "cone_newton" else parts)
+        return [f"solver {self.solver} for {what}: {self.why_solver}"]
 
 
 def model(scene):
@@ -81,27 +94,34 @@ def model(scene):
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"scene must be a Scene, but is {scene!r}")
-    touching = next(scene.colliding_pairs(), None)
-    if touching:
-        i, j = touching
+    pairs = count_pairs(scene)
+    bounded = [
+        joint
+        for joint in scene.joints
+        if joint.limits is not None or (joint.motor is not None and joint.motor[1] < np.inf)
+    ]
+    soft = next((number for number, joint in enumerate(scene.joints) if joint.soft), None)
+    if (pairs or bounded) and soft is not None:
         raise Unsupported(
-            f"bodies {i} and {j} could touch, and no simulator here computes contact yet: put bodies that "
-            f"should pass through each other in one group, or call scene.pair({i}, {j}, collide=False)"
+            f"joint {soft}, a {type(scene.joints[soft]).__name__}, has a spring or damper, which no "
+            "simulator here computes beside contact, limits or motors of limited force yet; use scene.spring"
         )
-    for number, joint in enumerate(scene.joints):
-        if joint.limits is not None or (joint.motor is not None and joint.motor[1] < np.inf):
-            raise Unsupported(
-                f"joint {number}, a {type(joint).__name__}, has limits or a motor of limited force, which "
-                "make an LCP, and no simulator here solves one yet; leave out limits, or give the motor "
-                "max_force=inf"
-            )
     moving = [body for body in scene.bodies if not body.static]
     rotating = [body for body in moving if not isinstance(body.shape, Point)]
     d, m, r = scene.dimension, len(moving), len(rotating)
-    present, absent = _terms(scene, m, r)
+    present, absent = _terms(scene, m, r, pairs)
     integrator, why = _integrator(scene, rotating)
-    solver, why_solver, rows = None, "", 0
-    if scene.joints:
+    simulator, solver, why_solver = "smooth", None, ""
+    if pairs or bounded:
+        why = "bodies can touch" if pairs else "limits, and motors of limited force, make an LCP"
+        simulator, integrator = "velocity_lcp", None
+        solver, why_solver = "cone_newton", "Coulomb's law with the exact friction cone"
+    rows = 0
+    if scene.joints and simulator == "velocity_lcp":
+        bodies = Bodies(scene)
+        rows = len(rigid_rows(bodies).kind) + len(bounded_rows(bodies).kind)
+        present += (Term("joints: J", rows, rows * (150 if d == 3 else 35)),)
+    elif scene.joints:
         bodies = Bodies(scene)
         rigid = rigid_rows(bodies)
         solver, why_solver, rows, _, _ = choose_solver(bodies, rigid)
@@ -114,7 +134,7 @@ def model(scene):
         m * d + r * (3 if d == 3 else 1),
         present,
         absent,
-        "smooth",
+        simulator,
         integrator,
         why,
         solver,
@@ -123,7 +143,7 @@ def model(scene):
     )
 
 
-def _terms(scene, m, r):
+def _terms(scene, m, r, pairs):
     """The terms that are there, and the names of those that are not. Operations: counted in the kernels."""
     d = scene.dimension
     space = d == 3
@@ -137,9 +157,12 @@ def _terms(scene, m, r):
         Term("drag", len(scene.drags), len(scene.drags) * (2 * d + 6)),
         Term("gravitation", pulls if attracts else 0, pulls * (8 * d + 6)),
         Term("user's forces (Python)", len(scene.user_forces), 0),
+        Term("pairs that could touch", pairs, 0),
     )
     absent = [term.name for term in candidates if not term.count]
-    absent += ["collision detection, contact rows and LCP: nothing can touch"]
+    absent = [name for name in absent if name != "pairs that could touch"]
+    if not pairs:
+        absent += ["collision detection, contact rows and LCP: nothing can touch"]
     return tuple(term for term in candidates if term.count), tuple(absent)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from .. import inputs
 from ..layout import Bodies
-from ..trajectory import BodyState, ContactHistory, Trajectory
+from ..trajectory import BodyState, Trajectory
 from .model import model
 from .settings import SIMULATORS, Settings
 
@@ -49,7 +49,7 @@ class Simulation:
         self.settings = chosen.told(self.dt, scene.user_forces)
         self.bodies = Bodies(scene)
         self.status, self.reason = "ok", ""
-        self._family = SIMULATORS[chosen.simulator](self.bodies, scene.user_forces, chosen)
+        self._family = SIMULATORS[chosen.simulator](scene, self.bodies, chosen)
         # the plain form of the loops would warn of what the status will tell; the compiled form can't
         self._silence = nullcontext if self.settings["compiled"] else partial(np.errstate, all="ignore")
         own = "look whether your own force is finite there, or " if scene.user_forces else ""
@@ -93,7 +93,7 @@ class Simulation:
             self.bodies,
             time,
             *self.bodies.unpack(record[:kept]),
-            contacts=ContactHistory.empty(kept, self.bodies.dimension),
+            contacts=self._family.contacts(kept),
             status=self.status,
             reason=self.reason,
             residual=solves[:kept, 1].copy(),

@@ -16,7 +16,7 @@ from ..correction import project
 from ..embedding import constrained_force
 from ..forces import external_force, with_user_forces
 from ..integrators import INTEGRATORS, copy, make_work
-from ..trajectory import BodyState, JointForces
+from ..trajectory import BodyState, ContactHistory, JointForces
 from .jointed import Joints
 
 TORN = 1e-6  # of the mechanism's size: a joint error that no projection could mend; the run stops
@@ -75,7 +75,8 @@ def jointed_step(step, system, t, h, state, work):
 class Smooth:
     """A scene made ready to run with one integrator: ``advance`` moves ``state``, and records if told to."""
 
-    def __init__(self, bodies, user_forces, settings):
+    def __init__(self, scene, bodies, settings):
+        user_forces = scene.user_forces
         self.bodies, self.state = bodies, bodies.state()
         self.work = make_work(
             len(self.state.x), len(self.state.q), bodies.dimension, settings.iterations, settings.tolerance
@@ -145,6 +146,10 @@ class Smooth:
             found.append(self.joints.forces(self.state))
         self.state = kept
         return JointForces(*(np.array(part) for part in zip(*found, strict=True)), self.joints.rows.joint)
+
+    def contacts(self, records):
+        """No contact in any of the records."""
+        return ContactHistory.empty(records, self.bodies.dimension)
 
     def failure(self):
         """The status and reason where ``advance`` ended early."""

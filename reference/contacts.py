@@ -1,0 +1,146 @@
+"""Contact points as rows of J: one along the normal and, where there is friction, one along each tangent.
+
+A row is made as a joint's is: −(e, r_i × e) for body i and (e, r_j × e) for body j, so that w = J u is
+how fast j leaves i along e. The normal row asks for w ≥ 0 and λ ≥ 0, of which one is 0; while there is
+still a gap it asks for w ≥ −gap/Δt, so that the two may just meet. A contact without friction has no
+tangential rows.
+
+Slides S10–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Numer. Methods Eng. 39 (1996)
+2673 (the gap in the velocity's condition: Anitescu & Potra, Nonlinear Dynamics 14 (1997) 231).
+"""
+
+import numpy as np
+
+from .collision import ContactArrays
+from .compiled import compiled
+from .rotation import cross, quaternion, rotate
+
+
+def part(contacts, which):
+    """The ``ContactArrays`` of some: which, a slice or a mask (capacity,) or (m,)."""
+    arrays = [array[which] for array in contacts[1:]]
+    return ContactArrays(np.array([len(arrays[0])]), *arrays)
+
+
+def keys(contacts, n):
+    """One number for each contact (m,), the same from step to step: which of n bodies, and what of them."""
+    i, j = contacts.bodies[:, 0], contacts.bodies[:, 1]
+    return (i * n + j) * 2**32 + contacts.id
+
+
+def look_up(known, values, key):
+    """The values (m, d) that belong to these keys (m,); 0 for those that are not known (c,)."""
+    found = np.zeros((len(key), values.shape[1]))
+    if len(known):
+        order = np.argsort(known, kind="stable")
+        at = order[np.minimum(np.searchsorted(known[order], key), len(order) - 1)]
+        same = known[at] == key
+        found[same] = values[at[same]]
+    return found
+
+
+def spread(rows, λ, m, d):
+    """λ of the first m blocks, the contacts, as (m, d): normal and tangents, 0 where there is no row."""
+    full = np.zeros((m, d))
+    full[tangents(rows, m, d)] = λ[: rows.block[m]]
+    return full
+
+
+def tangents(rows, m, d):
+    """(m, d): which of the directions of m contacts have rows."""
+    return np.arange(d) < np.diff(rows.block[: m + 1])[:, None]
+
+
+@compiled
+def contact_rows(contacts, target, k):
+    """The rows of these contacts, k = 3 or 6 velocities a body; w_n must be at least −target (m,), m/s.
+
+    Returns bodies (r, 2), J (r, 2, k), c (r,), block (m + 1,), μ (m,), lower and upper (r,): the fields
+    of ``lcp``'s ContactRows. Contact q has the rows block[q] … block[q + 1] − 1.
+    """
+    m, d = contacts.point[: contacts.count[0]].shape
+    block = np.zeros(m + 1, np.int64)
+    for q in range(m):
+        block[q + 1] = block[q] + (d if contacts.friction[q] > 0 else 1)
+    n = block[m]
+    bodies, J, c, μ = np.full((n, 2), -1), np.zeros((n, 2, k)), np.zeros(n), np.full(m, -1.0)
+    for q in range(m):
+        c[block[q]] = target[q]
+        if contacts.friction[q] > 0:
+            μ[q] = contacts.friction[q]
+        for a in range(block[q + 1] - block[q]):
+            r = block[q] + a
+            for side in range(2):
+                i = contacts.slot[q, side]
+                bodies[r, side] = i
+                if i >= 0:
+                    put_row(J[r, side], contacts.frame[q, a], contacts.arm[q, side], 2.0 * side - 1.0)
+    return bodies, J, c, block, μ, np.zeros(n), np.full(n, np.inf)
+
+
+@compiled
+def put_row(J, e, arm, sign):
+    """sign · (e, r × e), for one body (S5)."""
+    if len(e) == 2:
+        J[0], J[1], J[2] = sign * e[0], sign * e[1], sign * (arm[0] * e[1] - arm[1] * e[0])
+    else:
+        moment = cross((arm[0], arm[1], arm[2]), (e[0], e[1], e[2]))
+        for a in range(3):
+            J[a], J[3 + a] = sign * e[a], sign * moment[a]
+
+
+@compiled
+def fill_masses(system, state, M):
+    """M (n, k, k), block by block: the mass, and R I Rᵀ in the world frame; 1 for the turning of points,
+    which have none.
+    """
+    n, d = state.x.shape
+    M[:] = 0
+    for i in range(n):
+        for a in range(M.shape[1]):
+            M[i, a, a] = system.mass[i] if a < d else 1.0
+        if i >= len(state.q):
+            continue
+        if d == 2:
+            M[i, 2, 2] = system.inertia[i, 0]
+            continue
+        q = quaternion(state.q, i)
+        M[i, 3, 3], M[i, 4, 4], M[i, 5, 5] = 0.0, 0.0, 0.0
+        add_axis(M[i], system.inertia[i, 0], rotate(q, (1.0, 0.0, 0.0)))
+        add_axis(M[i], system.inertia[i, 1], rotate(q, (0.0, 1.0, 0.0)))
+        add_axis(M[i], system.inertia[i, 2], rotate(q, (0.0, 0.0, 1.0)))
+
+
+@compiled
+def add_axis(M, I, e):
+    """Add I e ⊗ e to the turning part of one body's M (6, 6)."""
+    for a, x in ((3, e[0]), (4, e[1]), (5, e[2])):
+        M[a, 3] += I * x * e[0]
+        M[a, 4] += I * x * e[1]
+        M[a, 5] += I * x * e[2]
+
+
+@compiled
+def label_islands(bodies, n):
+    """(n,): bodies that touch, directly or through others that move, have one label, the smallest number
+    among them.
+    """
+    label = np.arange(n)
+    for r in range(len(bodies)):
+        i, j = bodies[r, 0], bodies[r, 1]
+        if i >= 0 and j >= 0:
+            i, j = root(label, i), root(label, j)
+            if i != j:
+                label[max(i, j)] = min(i, j)
+    for i in range(n):
+        label[i] = root(label, i)
+    return label
+
+
+@compiled
+def root(label, i):
+    """The body whose label is its own, followed from i; paths are halved on the way."""
+    while label[i] != i:
+        label[i] = label[label[i]]
+        i = label[i]
+    return i

@@ -1,0 +1,142 @@
+"""The augmented Lagrangian of contact at given velocities u: its value, its gradient, and λ̂(u).
+
+    L(u) = ½ (u − u_free)ᵀ M (u − u_free) + Σ over blocks of (y·P(y) − ½ ‖P(y)‖²) / ρ,    y = λ − ρ (J u + c)
+
+P is the projection on the friction cone of a contact, or on the bounds of a single row; λ̂ = P(y) is the λ
+that these velocities call for, and M (u − u_free) − Jᵀ λ̂ the gradient. P has kinks where a contact changes
+from open to sticking to sliding, and is smooth between; P′ is its Jacobian, one of them at a kink.
+
+Slides S10, S14; lectures/08_newton_lcp.md. Source: Rockafellar, Math. Oper. Res. 1 (1976) 97.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..compiled import compiled, compiled_apart
+
+OPEN, STICKS, SLIDES = 0, 1, 2  # 3: slides the other way, in the plane
+
+
+class ContactRows(NamedTuple):
+    """m rows in blocks: a contact's (n, t) or (n, t1, t2), or a single row with bounds."""
+
+    bodies: np.ndarray  # (m, 2): i and j; −1: what doesn't move
+    J: np.ndarray  # (m, 2, k)
+    c: np.ndarray  # (m,): what J u must be added to: w = J u + c
+    block: np.ndarray  # (B + 1,): block q holds rows block[q] … block[q + 1] − 1
+    μ: np.ndarray  # (B,) of a contact; −1: a single row
+    lower: np.ndarray  # (m,) bounds of λ of single rows
+    upper: np.ndarray  # (m,)
+
+
+class Pass(NamedTuple):
+    """What ``evaluate`` fills in for a velocity u."""
+
+    w: np.ndarray  # (m,)
+    λ: np.ndarray  # (m,): λ̂
+    slope: np.ndarray  # (m, 3): P′, the rows of each block
+    state: np.ndarray  # (B,): 0 open, 1 sticks, 2 slides
+    gradient: np.ndarray  # (n, k)
+
+
+@compiled
+def make_pass(rows, n, k):
+    """Room for a pass over n bodies."""
+    m, blocks = len(rows.c), len(rows.μ)
+    return Pass(np.empty(m), np.empty(m), np.zeros((m, 3)), np.zeros(blocks, np.int64), np.empty((n, k)))
+
+
+@compiled
+def inner(a, b):
+    """Σ a_k b_k."""
+    total = 0.0
+    for k in range(len(a)):
+        total += a[k] * b[k]
+    return total
+
+
+@compiled_apart
+def evaluate(rows, M, free, λ, ρ, shift, u, out):
+    """The augmented Lagrangian at u, with λ̂, P′ and the gradient into ``out``."""
+    value, k = 0.0, u.shape[1]
+    for i in range(len(u)):
+        for a in range(k):
+            total = 0.0
+            for b in range(k):
+                total += M[i, a, b] * (u[i, b] - free[i, b])
+            out.gradient[i, a] = total
+            value += 0.5 * total * (u[i, a] - free[i, a])
+    for q in range(len(rows.μ)):
+        first, end = rows.block[q], rows.block[q + 1]
+        for r in range(first, end):
+            w = rows.c[r]
+            for side in range(2):
+                i = rows.bodies[r, side]
+                if i >= 0:
+                    w += inner(rows.J[r, side], u[i])
+            out.w[r] = w
+            out.λ[r] = λ[r] - ρ[q] * (w + shift[q] if r == first else w)
+        value += project(rows, q, first, end, out) / ρ[q]
+        for r in range(first, end):
+            for side in range(2):
+                i = rows.bodies[r, side]
+                if i >= 0:
+                    for a in range(k):
+                        out.gradient[i, a] -= rows.J[r, side, a] * out.λ[r]
+    return value
+
+
+@compiled
+def project(rows, q, first, end, out):
+    """P of block q in place, P′ and the state; returns y·P(y) − ½ P(y)², whose gradient P is."""
+    y, μ = out.λ, rows.μ[q]
+    for r in range(first, end):
+        put_slope(out.slope, r, 0.0, 0.0, 0.0)
+    if μ < 0:
+        before = y[first]
+        y[first] = min(max(before, rows.lower[first]), rows.upper[first])
+        out.state[q] = STICKS if y[first] == before else OPEN
+        out.slope[first, 0] = float(out.state[q])
+        return before * y[first] - 0.5 * y[first] ** 2
+    n, along = y[first], 0.0
+    for r in range(first + 1, end):
+        along += y[r] ** 2
+    tangential = np.sqrt(along)
+    if tangential <= μ * n:  # within the cone: it sticks
+        out.state[q] = STICKS
+        for r in range(first, end):
+            out.slope[r, r - first] = 1.0
+        return 0.5 * (n * n + along)
+    if μ * tangential <= -n:  # within the polar cone: it parts
+        out.state[q] = OPEN
+        for r in range(first, end):
+            y[r] = 0.0
+        return 0.0
+    return slide(rows, q, n, tangential, out)
+
+
+@compiled
+def slide(rows, q, n, tangential, out):
+    """P on the cone's surface: f (1, μ t), with t the unit vector along which y pulls, f its share of y."""
+    μ, first, d = rows.μ[q], rows.block[q], rows.block[q + 1] - rows.block[q]
+    t1 = out.λ[first + 1] / tangential
+    t2 = out.λ[first + 2] / tangential if d == 3 else 0.0
+    share = 1 / (1 + μ * μ)
+    f = (n + μ * tangential) * share
+    across = μ * f / tangential if d == 3 else 0.0  # turning t is all that the second tangent adds
+    put_slope(out.slope, first, share, share * μ * t1, share * μ * t2)
+    both = share * μ * μ * t1 * t2 - across * t1 * t2
+    put_slope(out.slope, first + 1, share * μ * t1, share * μ * μ * t1 * t1 + across * t2 * t2, both)
+    out.λ[first], out.λ[first + 1] = f, μ * f * t1
+    if d == 3:
+        put_slope(out.slope, first + 2, share * μ * t2, both, share * μ * μ * t2 * t2 + across * t1 * t1)
+        out.λ[first + 2] = μ * f * t2
+    out.state[q] = SLIDES if t1 > 0 or d == 3 else SLIDES + 1
+    return 0.5 * (1 + μ * μ) * f * f
+
+
+@compiled
+def put_slope(slope, r, a, b, c):
+    """Row r of P′."""
+    slope[r, 0], slope[r, 1], slope[r, 2] = a, b, c

@@ -1,0 +1,138 @@
+"""One contact by itself, solved exactly: w = A λ + q with A 3 × 3, by Coulomb's law or the convex one.
+
+There are three cases, and the first that fits is the answer (A symmetric, positive definite):
+
+    open      λ = 0              where w = q is allowed: q_n ≥ 0 (Coulomb), q_n ≥ μ‖q_t‖ (convex)
+    sticks    λ = −A⁻¹ q         where that is within the cone; w = 0
+    slides    λ on the cone, w_t = −α λ_t with an α > 0, and w_n = 0 (Coulomb) or μ‖w_t‖ = α μ² λ_n (convex)
+
+For a given α the last is a linear system, (A + α diag(−κ, 1, 1)) λ = −q with κ = 0 (Coulomb) or μ²
+(convex), and
+
+    G(α) = ‖λ_t‖ − μ λ_n = 0
+
+is a quartic in α. It needn't be written out: its root lies between bounds at whose ends G has two signs, so
+that bisection can't fail. For Coulomb's law these are 0 and ∞. There λ_t = 0 and λ_n = −q_n/A_nn > 0, so G
+< 0; at 0, where it would stick, λ is outside the cone, so G > 0. For the convex law the matrix is singular
+at one α₀; the root lies below α₀ if λ comes up to it from within the cone, else above.
+
+In the plane the second tangent is given a row of its own, which stays 0.
+
+Slides S10, S14; lectures/08_newton_lcp.md. Source: Bonnefon & Daviet, Quartic formulation of Coulomb 3D
+frictional contact, INRIA RT-0400 (2011), for the quartic; Daviet, Bertails-Descoubes & Boissieux, ACM TOG
+30 (2011) 139.
+"""
+
+import numpy as np
+
+from ..compiled import compiled
+
+_BISECTIONS = 200
+_NARROW = 4e-16  # of α: two numbers side by side
+
+
+@compiled
+def solve_contact(A, q_n, q_1, q_2, μ, coulomb):
+    """λ (three numbers) of one contact: A (3, 3) symmetric, positive; q the w that there is without λ."""
+    if q_n >= (0.0 if coulomb else μ * np.hypot(q_1, q_2)):
+        return 0.0, 0.0, 0.0
+    if μ == 0:
+        return -q_n / A[0, 0], 0.0, 0.0
+    c, s, s_1, s_2 = principal(A[1, 1], A[1, 2], A[2, 2])
+    # in the axes of A_tt, which are turned by the angle of (c, s), all but the first row is diagonal
+    a_1, a_2 = c * A[0, 1] + s * A[0, 2], c * A[0, 2] - s * A[0, 1]
+    p_1, p_2 = c * q_1 + s * q_2, c * q_2 - s * q_1
+    κ = 0.0 if coulomb else μ * μ
+    block = (A[0, 0], a_1, a_2, s_1, s_2, q_n, p_1, p_2, μ, κ)
+    G, whole, n, t_1, t_2 = surface(0.0, block)
+    if whole <= 0 or not (G <= 0 and n >= 0):
+        α = find_slip(block)
+        G, whole, n, t_1, t_2 = surface(α, block)
+        n, t_1, t_2 = n / whole, t_1 / whole, t_2 / whole
+        t = np.hypot(t_1, t_2)
+        if t > 0 and n > 0:
+            t_1, t_2 = t_1 * (μ * n / t), t_2 * (μ * n / t)
+    else:
+        n, t_1, t_2 = n / whole, t_1 / whole, t_2 / whole
+    return n, c * t_1 - s * t_2, s * t_1 + c * t_2
+
+
+@compiled
+def principal(a, b, d):
+    """The principal axis (c, s) of [[a, b], [b, d]], and its two eigenvalues, at least a rounding above 0."""
+    half, mean = 0.5 * (a - d), 0.5 * (a + d)
+    radius = np.hypot(half, b)
+    angle = 0.5 * np.arctan2(b, half) if radius > 0 else 0.0
+    least = 1e-15 * mean
+    return np.cos(angle), np.sin(angle), max(mean + radius, least), max(mean - radius, least)
+
+
+@compiled
+def surface(α, block):
+    """G, Schur's complement, and λ of the linear system for α, all but the second times that complement.
+
+    G's sign is that of ‖λ_t‖ − μ λ_n where the complement is positive, and of ‖λ_t‖ + μ λ_n where not: so
+    it does not jump where λ passes through infinity.
+    """
+    A_nn, a_1, a_2, s_1, s_2, q_n, p_1, p_2, μ, κ = block
+    x_1, x_2 = 1 / (s_1 + α), 1 / (s_2 + α)
+    whole = A_nn - α * κ - a_1 * a_1 * x_1 - a_2 * a_2 * x_2
+    n = a_1 * p_1 * x_1 + a_2 * p_2 * x_2 - q_n
+    t_1, t_2 = -x_1 * (p_1 * whole + a_1 * n), -x_2 * (p_2 * whole + a_2 * n)
+    return np.hypot(t_1, t_2) - μ * n, whole, n, t_1, t_2
+
+
+@compiled
+def find_slip(block):
+    """The α > 0 at which λ lies on the cone: G > 0 at one end, < 0 at the other, and bisection between."""
+    s_1, κ, outside, inside = block[3], block[9], 0.0, 1.0
+    if κ > 0:
+        inside = singular(block)
+        _, _, n, _, _ = surface(inside, block)
+        if n < 0:  # λ comes up to infinity from the wrong side: it is beyond
+            outside, grow = 2 * inside + s_1, 0
+            while beyond(outside, block) <= 0 and grow < 1000:
+                outside, grow = 2 * outside, grow + 1
+            return bisect(inside, outside, block, True)
+    else:
+        inside, grow = s_1, 0
+        while surface(inside, block)[0] > 0 and grow < 1000:
+            outside, inside, grow = inside, 2 * inside, grow + 1
+    return bisect(inside, outside, block, False)
+
+
+@compiled
+def beyond(α, block):
+    """‖λ_t‖ − μ λ_n past the singular α, times |Schur's complement|: positive outside the cone."""
+    _, _, n, t_1, t_2 = surface(α, block)
+    return np.hypot(t_1, t_2) + block[8] * n
+
+
+@compiled
+def singular(block):
+    """The α₀ > 0 at which the convex law's matrix is singular: Schur's complement is 0."""
+    low, high = 0.0, block[0] / block[9]
+    for _ in range(_BISECTIONS):
+        α = 0.5 * (low + high)
+        if high - low <= _NARROW * high:
+            break
+        if surface(α, block)[1] > 0:
+            low = α
+        else:
+            high = α
+    return low
+
+
+@compiled
+def bisect(inside, outside, block, past):
+    """The α between two at which λ is inside the cone and outside it: λ is on the cone."""
+    for _ in range(_BISECTIONS):
+        α = 0.5 * (inside + outside)
+        if abs(outside - inside) <= _NARROW * α:
+            break
+        G = beyond(α, block) if past else surface(α, block)[0]
+        if G <= 0:
+            inside = α
+        else:
+            outside = α
+    return inside

@@ -1,0 +1,138 @@
+"""Between two impacts: with which velocity each body moves, and where it comes to rest.
+
+A step changes the velocities from u to u⁺. Bodies that move with the *mean* ½ (u + u⁺) fly as thrown
+stones do, exactly, and what slides is as exact; a step changes then the energy by just ½ λᵀ (w + w⁺), the
+work of the contacts. Where that would be positive (a contact that begins to stick within the step), or
+where the mean would lead into another body (it lands), the bodies move with the *end* velocity u⁺: the
+energy then changes by λᵀ w⁺ − ½ |u⁺ − u|²_M, which never is positive. All bodies of an island, which
+touch each other, do the same. So contact never feeds energy into a scene, whatever Δt is.
+
+Slides S9, S12; lectures/05_contact.md.
+"""
+
+import numpy as np
+
+from ..bodies import planar, times
+from ..compiled import compiled
+from ..integrators.splitting import drift_by_midpoint, finish_free_rotation
+from ..rotation import quaternion, rotate, rotate_back, store, vector
+
+
+@compiled
+def gather_velocities(state, u):
+    """u (n, k): v and ω of each body side by side; 0 for the turning of points."""
+    d = state.x.shape[1]
+    u[:] = 0
+    for i in range(len(u)):
+        for a in range(d):
+            u[i, a] = state.v[i, a]
+        if i < len(state.ω):
+            for a in range(state.ω.shape[1]):
+                u[i, d + a] = state.ω[i, a]
+
+
+@compiled
+def scatter_velocities(system, u, state):
+    """v, ω and L from u (n, k)."""
+    d = state.x.shape[1]
+    for i in range(len(u)):
+        for a in range(d):
+            state.v[i, a] = u[i, a]
+        if i < len(state.ω):
+            for a in range(state.ω.shape[1]):
+                state.ω[i, a] = u[i, d + a]
+            if not planar(state):
+                q = quaternion(state.q, i)
+                ω = vector(state.ω, i)
+                store(state.L, i, rotate(q, times(vector(system.inertia, i), rotate_back(q, ω))))
+
+
+@compiled
+def choose_velocities(rows, label, gap, before, after, λ, h, slack, used):
+    """Into used (n, k): with which velocity each body moves. gap (m,), m, of each contact; slack, m: a
+    gap that counts as none.
+
+    Returns whether all move with the mean.
+    """
+    n, k = before.shape
+    work, lands = np.zeros(n), np.zeros(n, np.bool_)
+    for q in range(len(gap)):
+        first = rows.block[q]
+        i, j = rows.bodies[first, 0], rows.bodies[first, 1]
+        island = label[i if i >= 0 else j]
+        for r in range(first, rows.block[q + 1]):
+            twice = 0.0
+            for side in range(2):
+                b = rows.bodies[r, side]
+                if b >= 0:
+                    for a in range(k):
+                        twice += rows.J[r, side, a] * (before[b, a] + after[b, a])
+            work[island] += 0.5 * λ[r] * twice
+            if r == first and gap[q] + 0.5 * h * twice < -slack:
+                lands[island] = True
+    mean = True
+    for i in range(n):
+        island = label[i]
+        if lands[island] or work[island] > 0:
+            mean = False
+            used[i] = after[i]
+        else:
+            for a in range(k):
+                used[i, a] = 0.5 * (before[i, a] + after[i, a])
+    return mean
+
+
+@compiled
+def let_rest(label, rows, λ, before, free, after, tolerance):
+    """Set to 0 what the contacts hold still: islands as slow as the solver's tolerance, before and after.
+
+    Their speed is measured by what the forces would make of it in this step. Returns how many bodies rest.
+    """
+    n, k = before.shape
+    push, speed, held = np.zeros(n), np.zeros(n), np.zeros(n, np.bool_)
+    for r in range(len(λ)):
+        for side in range(2):
+            if λ[r] != 0 and rows.bodies[r, side] >= 0:
+                held[label[rows.bodies[r, side]]] = True
+    for i in range(n):
+        island = label[i]
+        for a in range(k):
+            push[island] = max(push[island], abs(free[i, a] - before[i, a]))
+            speed[island] = max(speed[island], abs(before[i, a]), abs(after[i, a]))
+    resting = 0
+    for i in range(n):
+        island = label[i]
+        if held[island] and speed[island] <= tolerance * push[island]:
+            after[i] = 0.0
+            resting += 1
+    return resting
+
+
+@compiled
+def move(system, used, after, h, state, work):
+    """Positions and attitudes with the velocities ``used``; then the velocities are those ``after``.
+
+    In space a body turns as a free one does, with the momentum that goes with ``used``; its momentum after
+    is kept, so that ω follows the axes.
+    """
+    scatter_velocities(system, after, state)
+    L = state.L.copy()
+    scatter_velocities(system, used, state)
+    drift_by_midpoint(system, h, state, work)
+    scatter_velocities_kept(system, after, L, state)
+
+
+@compiled
+def scatter_velocities_kept(system, after, L, state):
+    """v (and ω in the plane) from ``after``; in space ω from the momentum L, at the new attitude."""
+    d = state.x.shape[1]
+    for i in range(len(after)):
+        for a in range(d):
+            state.v[i, a] = after[i, a]
+        if i >= len(state.ω):
+            continue
+        if planar(state):
+            state.ω[i, 0] = after[i, d]
+        else:
+            state.L[i] = L[i]
+            finish_free_rotation(state, i, quaternion(state.q, i), vector(system.inertia, i))

@@ -1,0 +1,228 @@
+"""The velocity-based simulator, the widely used one: contact at the level of velocities and impulses (S12).
+
+A step of Δt, as S9 has it: find the contacts; solve w = A λ + b for the impulses λ, which keep bodies
+from going into each other; with them the new velocities; with these the new positions. What went into
+each other all the same is lifted apart first (S13), and where something rebounds the step stops at each
+impact.
+
+Slides S9–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Numer. Methods Eng. 39 (1996)
+2673; Anitescu & Potra, Nonlinear Dynamics 14 (1997) 231.
+"""
+
+import numpy as np
+
+from ..bodies import solve_mass
+from ..collision import find_contacts, make_collider
+from ..collision.find import make_contacts
+from ..compiled import bind, compiled
+from ..contacts import contact_rows, fill_masses, keys, label_islands, look_up, part, spread, tangents
+from ..forces import external_force, with_user_forces
+from ..integrators import make_work
+from ..lcp.cone_newton import ContactRows, cone_newton_kernel
+from ..trajectory import BodyState
+from .bouncing import MOST_IMPACTS, hop, strike
+from .flight import choose_velocities, gather_velocities, let_rest, move
+from .held import Held
+from .impacts import IMPACTS
+from .lifting import lift
+from .smooth import all_finite
+from .touched import Touched
+
+
+@compiled
+def fill_free(force, system, t, h, state, M, before, f, τ, free):
+    """The velocities after h without contact: u + Δt M⁻¹ f_e, into free (n, k); M (n, k, k) and u,
+    before, are filled too.
+    """
+    fill_masses(system, state, M)
+    gather_velocities(state, before)
+    force(system, t, state, f, τ)
+    solve_mass(system, state.q, f, τ)
+    d = f.shape[1]
+    free[:] = before
+    for i in range(len(f)):
+        for a in range(d):
+            free[i, a] += h * f[i, a]
+        if i < len(τ):
+            for a in range(τ.shape[1]):
+                free[i, d + a] += h * τ[i, a]
+
+
+CLOSED = 1e-9  # of the smallest body's size: a gap that counts as none
+REST = 100  # times the solver's tolerance: so slow is at rest, where contacts hold it
+
+
+class VelocityLCP:
+    """A scene made ready to run with contact: ``advance`` moves ``state``, and records if told to.
+
+    While a step is under way: M, before and free are the mass matrices, the velocities u now and those
+    that there would be after ``filled`` s without contact; ``now`` is the time of the clock.
+    """
+
+    def __init__(self, scene, bodies, settings):
+        self.bodies, self.system, self.state = bodies, bodies.system, bodies.state()
+        self.collider, self.held = make_collider(bodies, scene), Held(bodies)
+        self.limits, self.law = (settings.tolerance, settings.iterations), IMPACTS[settings.impact]
+        self.warm, self.recording = settings.warm_start, settings.record_contacts
+        force = external_force
+        if scene.user_forces:
+            force = with_user_forces(bodies, tuple(scene.user_forces), self.public_state)
+        self.timeless = not scene.user_forces  # the same state gives the same force
+        self.fill_free = bind(fill_free, force)
+        n, self.d = self.state.x.shape
+        self.k = 6 if self.d == 3 else 3
+        self.M, self.before, self.free = (
+            np.zeros((n, self.k, self.k)),
+            np.zeros((n, self.k)),
+            np.zeros((n, self.k)),
+        )
+        self.f, self.τ = np.zeros((n, self.d)), np.zeros_like(self.state.ω)
+        self.work = make_work(n, len(self.state.q), self.d, 30, 1e-15)
+        radius = self.collider.solids.form.radius if self.collider else np.zeros(0)
+        self.closed = CLOSED * float(radius[np.isfinite(radius)].min(initial=self.held.size))
+        self.key, self.force = np.zeros(0, dtype=np.int64), np.zeros((0, self.d))  # of the contacts before
+        self.now, self.filled, self.still, self.lifted = 0.0, 0.0, False, 0.0
+        self.touched, self.worst, self.open = Touched(self.d), np.zeros(2), 0.0
+        self.begin()
+
+    def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
+        """So many steps of h; the time is origin + h · (steps done before, ``first``, and since).
+
+        Every so many steps, and after the last, a row of record and of solves is written, as in
+        ``smooth.run``. Returns how many steps were done: fewer than ``steps`` if the next would not have
+        been finite.
+        """
+        row = 0
+        for done in range(steps):
+            kept = self.keep()
+            self.step(origin + (first + done) * h, h)
+            if not all_finite(self.state.y):
+                self.restore(kept)
+                return done
+            if record is not None and ((done + 1) % every == 0 or done + 1 == steps):
+                record[row], solves[row] = self.state.y, self.worst
+                self.worst[:], row = 0, row + 1
+                if self.recording:
+                    self.touched.close(self.within(2 * self.closed), self.closed)
+            if record is None or not self.recording:
+                self.touched.back_to(0)
+        return steps
+
+    def step(self, t, h):
+        """One step of S9, from impact to impact."""
+        if self.still:  # the same state again, and so the same forces
+            self.touched.repeat()
+            return
+        start, left, impacts = self.state.y.copy(), h, 0
+        while left > 0:
+            self.fill(t + h - left, left)
+            contacts = lift(self, self.find(left), left)
+            bouncing = contacts.restitution.any() and impacts < MOST_IMPACTS
+            if bouncing and strike(self, contacts, h):
+                self.fill(t + h - left, left)
+            done = hop(self, contacts, left) if bouncing else self.fly(contacts, left)
+            left, impacts = left - done if done < left else 0.0, impacts + 1
+        if len(self.held):  # joints are closed at once: what is recorded is a state that they allow
+            self.fill(t + h, h)
+            lift(self, self.within(0.0), h)
+        self.still = self.timeless and impacts == 1 and np.array_equal(start, self.state.y)
+
+    def fill(self, t, h):
+        """M, u, and the velocities that there would be after h without contact."""
+        self.now, self.filled = t, h
+        self.fill_free(self.system, t, h, self.state, self.M, self.before, self.f, self.τ, self.free)
+        self.held.fill(self.state)
+
+    def find(self, h):
+        """All contacts that could matter within h."""
+        hastening = np.abs(self.free - self.before).max(initial=0.0)
+        return self.within(2 * h * hastening + 100 * self.closed, h)
+
+    def within(self, margin, h=0.0):
+        """The contacts with gaps up to margin, and those that speeds could close within h besides."""
+        if not self.collider:
+            return make_contacts(0, self.d)
+        m = find_contacts(self.collider, self.state, margin, h)
+        return part(self.collider.contacts, slice(0, m))
+
+    def rows(self, contacts, target, held):
+        """The contacts' rows, with w_n ≥ −target, and those of the joints with (c, lower, upper) = held."""
+        return ContactRows(*self.held.joined(contact_rows(contacts, target, self.k), *held))
+
+    def solve(self, rows, free, λ):
+        """The velocities u⁺; λ in place."""
+        after, passes, error = cone_newton_kernel(rows, self.M, free, True, λ, *self.limits, np.zeros(0))
+        self.worst[:] = max(self.worst[0], passes), max(self.worst[1], error)
+        return after
+
+    def fly(self, contacts, h):
+        """Move on by h, without rebound. Returns h."""
+        m, gap = len(contacts.gap), np.concatenate([contacts.gap, self.held.gap()])
+        rows = self.rows(contacts, np.maximum(contacts.gap, 0.0) / h, self.held.in_flight(h))
+        free = self.before + (self.free - self.before) * (h / self.filled)
+        key = keys(contacts, len(self.bodies.mass))
+        pushed = look_up(self.key, self.force, key)[tangents(rows, m, self.d)]
+        λ = h * np.concatenate([pushed, self.held.force])
+        after = self.solve(rows, free, λ)
+        label = label_islands(rows.bodies, len(after))
+        let_rest(label, rows, λ, self.before, free, after, REST * self.limits[0])
+        used = np.empty_like(after)
+        choose_velocities(rows, label, gap, self.before, after, λ, h, self.closed, used)
+        move(self.system, used, after, h, self.state, self.work)
+        impulse = spread(rows, λ, m, self.d)
+        self.touched.add(contacts, impulse)
+        if self.warm:
+            self.key, self.force, self.held.force = key, impulse / h, λ[rows.block[m] :] / h
+        return h
+
+    def keep(self):
+        """What ``restore`` needs to go back to now."""
+        state = self.state
+        return state.y.copy(), state.L.copy(), self.key, self.force, self.held.force, self.touched.mark()
+
+    def restore(self, kept):
+        """Go back to what ``keep`` kept."""
+        self.state.y[:], self.state.L[:], self.key, self.force, self.held.force, mark = kept
+        self.touched.back_to(mark)
+
+    def set_state(self, start):
+        """Take over a ``BodyState``."""
+        self.state = self.bodies.state(
+            start.position, start.orientation, start.velocity, start.angular_velocity
+        )
+        self.still = False
+        self.begin()
+
+    def begin(self):
+        """Close the joints; ValueError where they can't be closed."""
+        if len(self.held):
+            self.fill(0.0, 1.0)
+            lift(self, self.within(0.0), 1.0)
+            self.lifted = 0.0
+            if self.open:
+                raise ValueError(
+                    f"joints must be able to hold at the same time, but one stays open by {self.open:.3g} "
+                    "whatever the bodies do: look at lengths and points of the loops that they close"
+                )
+
+    def public_state(self, t, state):
+        """The State as a ``BodyState`` of all bodies."""
+        return BodyState(t, *(array[0] for array in self.bodies.unpack(state.y[None])))
+
+    def contacts(self, records):
+        """The ``ContactHistory`` of so many records."""
+        return self.touched.history(records)
+
+    def failure(self):
+        """The status and reason where ``advance`` ended early, or None, where there is nothing to add."""
+        return ("torn", f"a joint stayed open by {self.open:.2g} in") if self.open else None
+
+    def note(self):
+        """What must be said of the contacts, or ""."""
+        return f"lifting overlaps apart has added {self.lifted:.3g} J" if self.lifted > 0 else ""
+
+    def joint_forces(self, times, records):
+        """ValueError: impulses of joints are not kept here."""
+        raise ValueError(
+            "joint_forces() needs a run under 'smooth': 'velocity_lcp' keeps no forces of joints"
+        )
