@@ -16,7 +16,7 @@ from .rows import fill_rows, make_jacobian
 FEW = 12  # rows: so many a dense matrix serves as well as any
 HUB = 12  # joints on one body: A has a full block for all of their rows
 LOOPS = 100  # rows: up to so many their rank is looked at in each evaluation, where joints close loops
-SINGULAR = 1e-6  # of a row's length: a combination of rows as short as that is none, and one is a sum of others
+SINGULAR = 1e-6  # of a row's length: where a combination of rows is shorter, one is a sum of others
 
 
 class Choice(NamedTuple):
@@ -51,8 +51,8 @@ def choose_solver(bodies, rows):
 def short_combinations(J, length):
     """How many singular values of the rows J (sparse, each of length 1) are below ``length``.
 
-    They are counted, not found: by Sylvester's law of inertia as many pivots of J Jᵀ − length² are negative as
-    it has eigenvalues below 0. So the cost is that of one sparse factorisation.
+    They are counted, not found: by Sylvester's law of inertia as many pivots of J Jᵀ − length² are negative
+    as it has eigenvalues below 0. So the cost is that of one sparse factorisation.
     """
     shifted = J @ J.T - length**2 * scipy.sparse.eye_array(J.shape[0])
     factor = scipy.sparse.linalg.splu(
@@ -69,7 +69,7 @@ def joints_on_a_body(rows):
 
 
 def scaled_rows(bodies, rows):
-    """J M^(−1/2) at the start, each row divided by its length, sparse: (m, velocities); its square is A, scaled."""
+    """J M^(−1/2) at the start, each row divided by its length: (m, M k), sparse; its square is A, scaled."""
     m, d, M = len(rows.kind), bodies.dimension, len(bodies.moving)
     jacobian = make_jacobian(m, len(bodies.rotating), d)
     fill_rows(rows, bodies.state(), jacobian)

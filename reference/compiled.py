@@ -99,10 +99,10 @@ def _compile(function, **options):
 
 
 def merged(function):
-    """As ``lean``, for a function called from one place: Numba puts its source there, before it compiles.
+    """As ``lean``, for a function called from one place: Numba puts its source there before it compiles.
 
-    So it is compiled once, with its caller, and not by itself first; in a chain of callers that makes
-    compiling several times as fast.
+    So it is compiled once, with its caller, and not by itself first, and again in the caller's caller. In a
+    chain of long functions that halves the time for compiling, or better.
     """
     return _compile(function, _nrt=False, inline="always") if COMPILED else function
 

@@ -29,7 +29,7 @@ MULTIPLIERS = {
     "cholesky": Multipliers(CHOLESKY, cholesky.prepare, "few joints"),
     "sparse": Multipliers(SPARSE, sparse.prepare, "many joints, each body with few of them; loops allowed"),
     "tree": Multipliers(TREE, tree.prepare, "joints without loops, a body with many of them too"),
-    "minimum_norm": Multipliers(MINIMUM_NORM, minimum_norm.prepare, "redundant joints"),
+    "minimum_norm": Multipliers(MINIMUM_NORM, minimum_norm.prepare, "redundant joints, singular positions"),
 }
 
 

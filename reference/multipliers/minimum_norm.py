@@ -20,9 +20,9 @@ from ..compiled import merged
 from .cholesky import cholesky, solve_cholesky
 from .factor import assemble, make_factor, meeting_rows
 
-# A pivot, over what was there before the elimination, below which a row is a sum of others. It is a square: 1e-3
-# of a row's length. Within a step the joints stand open by something of Δt², and redundant rows then differ by as
-# much; taken for independent, they would lock a mechanism that moves, such as Bricard's.
+# A pivot, over what was there before the elimination, below which a row is a sum of others. It is a square:
+# 1e-3 of a row's length. Within a step the joints stand open by something of Δt², and redundant rows then
+# differ by as much; taken for independent, they would lock a mechanism that moves, such as Bricard's.
 DEPENDENT = 1e-6
 
 

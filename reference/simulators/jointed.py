@@ -98,8 +98,9 @@ class Joints:
         if not jumps.size:
             return len(records) - 1
         self.jump = (
-            f"energy changed by {energy[jumps[0] + 1] - energy[jumps[0]]:.2g} J, though nothing in the scene could "
-            "change it, near a singular position of the joints, from where more than one motion is possible, in"
+            f"energy changed by {energy[jumps[0] + 1] - energy[jumps[0]]:.2g} J, though nothing in the scene "
+            "could change it, near a singular position of the joints, from where more than one motion is "
+            "possible, in"
         )
         return int(jumps[0])
 

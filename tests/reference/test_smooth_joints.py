@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -194,7 +195,8 @@ def test_energy_that_jumps_in_a_singular_position_ends_the_run():
     run = simulate(case.scene, case.duration, case.duration / steps, **options)
     assert run.status == "singular" and "though nothing in the scene could change it" in run.reason
     assert "energy changed by" in run.reason and run.time[-1] < case.duration
-    assert case.error(run) < 1e-3 and np.ptp(run.energy()) < 1e-4 * 6.5 * 9.81  # up to there it is right
+    assert case.error(replace(run, status="ok")) < 1e-3  # up to there it is right
+    assert np.ptp(run.energy()) < 1e-4 * 6.5 * 9.81
     damped = CASES["n_four_bars"]().scene
     damped.drag(0, linear=1e-3)
     assert "energy" not in simulate(damped, case.duration, case.duration / steps, **options).reason
