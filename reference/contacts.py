@@ -39,16 +39,16 @@ def look_up(known, values, key):
     return found
 
 
-def spread(rows, λ, d):
-    """λ of all rows as (B, d): normal and tangents of each contact, 0 where it has no row."""
-    full = np.zeros((len(rows.μ), d))
-    full[tangents(rows, d)] = λ
+def spread(rows, λ, m, d):
+    """λ of the first m blocks, the contacts, as (m, d): normal and tangents, 0 where there is no row."""
+    full = np.zeros((m, d))
+    full[tangents(rows, m, d)] = λ[: rows.block[m]]
     return full
 
 
-def tangents(rows, d):
-    """(B, d): which of a contact's directions have rows."""
-    return np.arange(d) < np.diff(rows.block)[:, None]
+def tangents(rows, m, d):
+    """(m, d): which of the directions of m contacts have rows."""
+    return np.arange(d) < np.diff(rows.block[: m + 1])[:, None]
 
 
 @compiled

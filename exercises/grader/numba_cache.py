@@ -1,4 +1,4 @@
-"""Numba's cache on disk, switched off: `njit(cache=True)` compiles, and neither writes nor reads a file.
+"""Numba's cache on disk, switched off: `njit(cache=True)` and its like compile, and neither write nor read.
 
 Its files are pickles, which run code when they are read, and a cell's code has no file to be kept beside.
 """
@@ -6,11 +6,11 @@ Its files are pickles, which run code when they are read, and a cell's code has 
 import importlib.machinery
 import sys
 
-MODULE = "numba.core.dispatcher"
+MODULE = "numba.core.caching"
 
 
 class _Finder:
-    """Finds Numba's dispatcher as usual, and changes it once it is loaded."""
+    """Finds the module of caches as usual, and changes it once it is loaded, before others take from it."""
 
     @staticmethod
     def find_spec(name, path=None, target=None):
@@ -29,12 +29,17 @@ class _Finder:
 
 
 def _change(module):
-    module.Dispatcher.enable_caching = lambda self: None
+    """Each kind of cache is the one that holds nothing."""
+    nothing = module.NullCache
+
+    def no_cache(*arguments, **options):
+        return nothing()
+
+    module.FunctionCache, module.make_library_cache = no_cache, lambda prefix: no_cache
 
 
 def off():
-    """From now on, in this process, nothing is cached."""
+    """From now on, in this process, nothing is cached: called before Numba is first imported."""
     if MODULE in sys.modules:
-        _change(sys.modules[MODULE])
-    else:
-        sys.meta_path.insert(0, _Finder)
+        raise RuntimeError("Numba is already there, with its cache")
+    sys.meta_path.insert(0, _Finder)

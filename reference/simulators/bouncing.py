@@ -41,10 +41,11 @@ def strike(sim, contacts, h):
         λ = np.zeros(len(rows.c))
         return sim.solve(rows, free, λ), λ
 
-    rows = sim.rows(closed, np.zeros(len(e)))
-    after, λ = sim.law(rows, e, sim.M, sim.before, solve)
+    rows = sim.rows(closed, np.zeros(len(e)), sim.held.at_impact(sim.closed))
+    of_all = np.concatenate([e, np.zeros(len(sim.held))])
+    after, λ = sim.law(rows, of_all, sim.M, sim.before, solve)
     scatter_velocities(sim.system, after, sim.state)
-    sim.touched.add(closed, spread(rows, λ, sim.d))
+    sim.touched.add(closed, spread(rows, λ, len(e), sim.d))
     return True
 
 
@@ -80,8 +81,9 @@ def hop(sim, contacts, h):
 
 def motion(sim, contacts):
     """How fast each contact parts, w_n (m,), and how its rate would change without contact, per s."""
-    rows = sim.rows(contacts, np.zeros(len(contacts.gap)))
-    first = rows.block[:-1]
+    m = len(contacts.gap)
+    rows = sim.rows(contacts, np.zeros(m), sim.held.at_impact(sim.closed))
+    first = rows.block[:m]
     return rates(rows, sim.before)[first], rates(rows, sim.free - sim.before)[first] / sim.filled
 
 

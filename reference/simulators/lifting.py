@@ -1,4 +1,4 @@
-"""What went into each other is lifted apart, by the smallest move that does it (S13).
+"""What went into each other is lifted apart, and joints are closed, by the smallest move that does it (S13).
 
 Smallest in the measure of the kinetic energy: δ with ½ |δ|²_M least and gap + J δ ≥ 0 for all contacts
 near, again and again until none is deep. Lifting adds potential energy, which is taken from the speed of
@@ -17,31 +17,40 @@ from .flight import scatter_velocities
 
 DEEP = 10  # times the gap that counts as none
 MOST_LIFTS = 20
+TORN = 1e-6  # of the mechanism's size: an opening of joints that no move mends
 
 
 def lift(sim, contacts, h):
     """Bring apart what is deeper in each other than rounding explains. Returns the contacts that there
     are then.
     """
-    if contacts.gap.min(initial=0.0) >= -DEEP * sim.closed:
+    if depth(sim, contacts) <= DEEP * sim.closed:
         return contacts
     label, height = np.arange(len(sim.before)), sim.state.x.copy()
     for _ in range(MOST_LIFTS):
         frictionless = contacts._replace(friction=np.zeros(len(contacts.gap)))
-        rows = sim.rows(frictionless, contacts.gap)
+        rows = sim.rows(frictionless, contacts.gap, sim.held.to_lift())
         δ = sim.solve(rows, np.zeros_like(sim.before), np.zeros(len(rows.c)))
         label = np.minimum(label, label_islands(rows.bodies, len(δ)))
         d = sim.d
         displace(sim.state, δ[:, :d], δ[: len(sim.state.q), d:])
         sim.fill(sim.now, h)
         contacts = sim.find(h)
-        if contacts.gap.min(initial=0.0) >= -sim.closed:
+        if depth(sim, contacts) <= sim.closed:
             break
+    if sim.held.worst() > TORN * sim.held.size:
+        sim.open = sim.held.worst()
+        sim.state.y[:] = np.nan  # which ends the run: no step may be built on joints that don't close
     gain = -(sim.system.mass[:, None] * sim.system.gravity * (sim.state.x - height)).sum(axis=1)
     sim.lifted += pay(label, gain, sim.M, sim.before)
     scatter_velocities(sim.system, sim.before, sim.state)
     sim.fill(sim.now, h)
     return contacts
+
+
+def depth(sim, contacts):
+    """How deep in each other, or how far from closed, anything is at the most, m (a turn, rad, of joints)."""
+    return max(-contacts.gap.min(initial=0.0), sim.held.worst())
 
 
 @compiled

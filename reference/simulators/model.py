@@ -11,7 +11,7 @@ from ..choice import choose_solver
 from ..collision import count_pairs
 from ..integrators import INTEGRATORS
 from ..layout import Bodies
-from ..mechanism import rigid_rows, soft_rows
+from ..mechanism import bounded_rows, rigid_rows, soft_rows
 from ..multipliers import MULTIPLIERS
 from ..scene import Scene, Unsupported
 from ..shapes import Point
@@ -82,7 +82,8 @@ class Model:
         """A line on the solver, if there is one."""
         if not self.solver:
             return []
-        what = f"the {self.rows} rows of the joints" if self.rows else "the contacts"
+        parts = [f"the {self.rows} rows of the joints"] if self.rows else []
+        what = " and ".join(parts + ["the contacts"] if self.solver == "cone_newton" else parts)
         return [f"solver {self.solver} for {what}: {self.why_solver}"]
 
 
@@ -94,31 +95,33 @@ def model(scene):
     if not isinstance(scene, Scene):
         raise TypeError(f"scene must be a Scene, but is {scene!r}")
     pairs = count_pairs(scene)
-    if pairs and scene.joints:
-        i, j = next(scene.colliding_pairs())
+    bounded = [
+        joint
+        for joint in scene.joints
+        if joint.limits is not None or (joint.motor is not None and joint.motor[1] < np.inf)
+    ]
+    soft = next((number for number, joint in enumerate(scene.joints) if joint.soft), None)
+    if (pairs or bounded) and soft is not None:
         raise Unsupported(
-            f"bodies {i} and {j} could touch, and no simulator here computes joints and contact in one "
-            "scene yet: put bodies that should pass through each other in one group, or call "
-            f"scene.pair({i}, {j}, collide=False)"
+            f"joint {soft}, a {type(scene.joints[soft]).__name__}, has a spring or damper, which no "
+            "simulator here computes beside contact, limits or motors of limited force yet; use scene.spring"
         )
-    for number, joint in enumerate(scene.joints):
-        if joint.limits is not None or (joint.motor is not None and joint.motor[1] < np.inf):
-            raise Unsupported(
-                f"joint {number}, a {type(joint).__name__}, has limits or a motor of limited force, which "
-                "make an LCP, and no simulator here solves one yet; leave out limits, or give the motor "
-                "max_force=inf"
-            )
     moving = [body for body in scene.bodies if not body.static]
     rotating = [body for body in moving if not isinstance(body.shape, Point)]
     d, m, r = scene.dimension, len(moving), len(rotating)
     present, absent = _terms(scene, m, r, pairs)
     integrator, why = _integrator(scene, rotating)
     simulator, solver, why_solver = "smooth", None, ""
-    if pairs:
-        simulator, integrator, why = "velocity_lcp", None, "bodies can touch"
+    if pairs or bounded:
+        why = "bodies can touch" if pairs else "limits, and motors of limited force, make an LCP"
+        simulator, integrator = "velocity_lcp", None
         solver, why_solver = "cone_newton", "Coulomb's law with the exact friction cone"
     rows = 0
-    if scene.joints:
+    if scene.joints and simulator == "velocity_lcp":
+        bodies = Bodies(scene)
+        rows = len(rigid_rows(bodies).kind) + len(bounded_rows(bodies).kind)
+        present += (Term("joints: J", rows, rows * (150 if d == 3 else 35)),)
+    elif scene.joints:
         bodies = Bodies(scene)
         rigid = rigid_rows(bodies)
         solver, why_solver, rows, _, _ = choose_solver(bodies, rigid)

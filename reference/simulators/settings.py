@@ -68,7 +68,7 @@ class Settings:
             raise Unsupported(
                 f"simulator {simulator!r} can't run this scene: "
                 + (
-                    "something in it can touch"
+                    "what can touch, or has limits, makes an LCP"
                     if needs.simulator == "velocity_lcp"
                     else "nothing in it can touch"
                 )

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..bodies import solve_mass
 from ..collision import find_contacts, make_collider
+from ..collision.find import make_contacts
 from ..compiled import bind, compiled
 from ..contacts import contact_rows, fill_masses, keys, label_islands, look_up, part, spread, tangents
 from ..forces import external_force, with_user_forces
@@ -21,6 +22,7 @@ from ..lcp.cone_newton import ContactRows, cone_newton_kernel
 from ..trajectory import BodyState
 from .bouncing import MOST_IMPACTS, hop, strike
 from .flight import choose_velocities, gather_velocities, let_rest, move
+from .held import Held
 from .impacts import IMPACTS
 from .lifting import lift
 from .smooth import all_finite
@@ -59,7 +61,7 @@ class VelocityLCP:
 
     def __init__(self, scene, bodies, settings):
         self.bodies, self.system, self.state = bodies, bodies.system, bodies.state()
-        self.collider = make_collider(bodies, scene)
+        self.collider, self.held = make_collider(bodies, scene), Held(bodies)
         self.limits, self.law = (settings.tolerance, settings.iterations), IMPACTS[settings.impact]
         self.warm, self.recording = settings.warm_start, settings.record_contacts
         force = external_force
@@ -76,11 +78,12 @@ class VelocityLCP:
         )
         self.f, self.τ = np.zeros((n, self.d)), np.zeros_like(self.state.ω)
         self.work = make_work(n, len(self.state.q), self.d, 30, 1e-15)
-        radius = self.collider.solids.form.radius
-        self.closed = CLOSED * float(radius[np.isfinite(radius)].min())
+        radius = self.collider.solids.form.radius if self.collider else np.zeros(0)
+        self.closed = CLOSED * float(radius[np.isfinite(radius)].min(initial=self.held.size))
         self.key, self.force = np.zeros(0, dtype=np.int64), np.zeros((0, self.d))  # of the contacts before
         self.now, self.filled, self.still, self.lifted = 0.0, 0.0, False, 0.0
-        self.touched, self.worst = Touched(self.d), np.zeros(2)
+        self.touched, self.worst, self.open = Touched(self.d), np.zeros(2), 0.0
+        self.begin()
 
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
         """So many steps of h; the time is origin + h · (steps done before, ``first``, and since).
@@ -100,7 +103,7 @@ class VelocityLCP:
                 record[row], solves[row] = self.state.y, self.worst
                 self.worst[:], row = 0, row + 1
                 if self.recording:
-                    self.touched.close(self.find_now(), self.closed)
+                    self.touched.close(self.within(2 * self.closed), self.closed)
             if record is None or not self.recording:
                 self.touched.back_to(0)
         return steps
@@ -119,27 +122,32 @@ class VelocityLCP:
                 self.fill(t + h - left, left)
             done = hop(self, contacts, left) if bouncing else self.fly(contacts, left)
             left, impacts = left - done if done < left else 0.0, impacts + 1
+        if len(self.held):  # joints are closed at once: what is recorded is a state that they allow
+            self.fill(t + h, h)
+            lift(self, self.within(0.0), h)
         self.still = self.timeless and impacts == 1 and np.array_equal(start, self.state.y)
 
     def fill(self, t, h):
         """M, u, and the velocities that there would be after h without contact."""
         self.now, self.filled = t, h
         self.fill_free(self.system, t, h, self.state, self.M, self.before, self.f, self.τ, self.free)
+        self.held.fill(self.state)
 
     def find(self, h):
         """All contacts that could matter within h."""
         hastening = np.abs(self.free - self.before).max(initial=0.0)
-        m = find_contacts(self.collider, self.state, 2 * h * hastening + 100 * self.closed, h)
+        return self.within(2 * h * hastening + 100 * self.closed, h)
+
+    def within(self, margin, h=0.0):
+        """The contacts with gaps up to margin, and those that speeds could close within h besides."""
+        if not self.collider:
+            return make_contacts(0, self.d)
+        m = find_contacts(self.collider, self.state, margin, h)
         return part(self.collider.contacts, slice(0, m))
 
-    def find_now(self):
-        """The contacts that there are, for the record."""
-        m = find_contacts(self.collider, self.state, 2 * self.closed)
-        return part(self.collider.contacts, slice(0, m))
-
-    def rows(self, contacts, target):
-        """The contacts' rows, with w_n ≥ −target."""
-        return ContactRows(*contact_rows(contacts, target, self.k))
+    def rows(self, contacts, target, held):
+        """The contacts' rows, with w_n ≥ −target, and those of the joints with (c, lower, upper) = held."""
+        return ContactRows(*self.held.joined(contact_rows(contacts, target, self.k), *held))
 
     def solve(self, rows, free, λ):
         """The velocities u⁺; λ in place."""
@@ -149,30 +157,32 @@ class VelocityLCP:
 
     def fly(self, contacts, h):
         """Move on by h, without rebound. Returns h."""
-        rows = self.rows(contacts, np.maximum(contacts.gap, 0.0) / h)
+        m, gap = len(contacts.gap), np.concatenate([contacts.gap, self.held.gap()])
+        rows = self.rows(contacts, np.maximum(contacts.gap, 0.0) / h, self.held.in_flight(h))
         free = self.before + (self.free - self.before) * (h / self.filled)
         key = keys(contacts, len(self.bodies.mass))
-        λ = h * look_up(self.key, self.force, key)[tangents(rows, self.d)]
+        pushed = look_up(self.key, self.force, key)[tangents(rows, m, self.d)]
+        λ = h * np.concatenate([pushed, self.held.force])
         after = self.solve(rows, free, λ)
         label = label_islands(rows.bodies, len(after))
         let_rest(label, rows, λ, self.before, free, after, REST * self.limits[0])
         used = np.empty_like(after)
-        choose_velocities(rows, label, contacts.gap, self.before, after, λ, h, self.closed, used)
+        choose_velocities(rows, label, gap, self.before, after, λ, h, self.closed, used)
         move(self.system, used, after, h, self.state, self.work)
-        impulse = spread(rows, λ, self.d)
+        impulse = spread(rows, λ, m, self.d)
         self.touched.add(contacts, impulse)
         if self.warm:
-            self.key, self.force = key, impulse / h
+            self.key, self.force, self.held.force = key, impulse / h, λ[rows.block[m] :] / h
         return h
 
     def keep(self):
         """What ``restore`` needs to go back to now."""
         state = self.state
-        return state.y.copy(), state.L.copy(), self.key, self.force, self.touched.mark()
+        return state.y.copy(), state.L.copy(), self.key, self.force, self.held.force, self.touched.mark()
 
     def restore(self, kept):
         """Go back to what ``keep`` kept."""
-        self.state.y[:], self.state.L[:], self.key, self.force, mark = kept
+        self.state.y[:], self.state.L[:], self.key, self.force, self.held.force, mark = kept
         self.touched.back_to(mark)
 
     def set_state(self, start):
@@ -181,6 +191,19 @@ class VelocityLCP:
             start.position, start.orientation, start.velocity, start.angular_velocity
         )
         self.still = False
+        self.begin()
+
+    def begin(self):
+        """Close the joints; ValueError where they can't be closed."""
+        if len(self.held):
+            self.fill(0.0, 1.0)
+            lift(self, self.within(0.0), 1.0)
+            self.lifted = 0.0
+            if self.open:
+                raise ValueError(
+                    f"joints must be able to hold at the same time, but one stays open by {self.open:.3g} "
+                    "whatever the bodies do: look at lengths and points of the loops that they close"
+                )
 
     def public_state(self, t, state):
         """The State as a ``BodyState`` of all bodies."""
@@ -191,13 +214,15 @@ class VelocityLCP:
         return self.touched.history(records)
 
     def failure(self):
-        """The status and reason where ``advance`` ended early: nothing to add to what is known."""
-        return None
+        """The status and reason where ``advance`` ended early, or None, where there is nothing to add."""
+        return ("torn", f"a joint stayed open by {self.open:.2g} in") if self.open else None
 
     def note(self):
         """What must be said of the contacts, or ""."""
         return f"lifting overlaps apart has added {self.lifted:.3g} J" if self.lifted > 0 else ""
 
     def joint_forces(self, times, records):
-        """ValueError: a scene with contact has no joints here."""
-        raise ValueError("joint_forces() needs a scene with joints: this one has none")
+        """ValueError: impulses of joints are not kept here."""
+        raise ValueError(
+            "joint_forces() needs a run under 'smooth': 'velocity_lcp' keeps no forces of joints"
+        )

@@ -29,7 +29,7 @@ BEST = "best"  # whichever kind is the best that works here
 KINDS = [kind for kind in nursery.KINDS if kind != "none"]
 DAILY = {
     "fork_bomb", "network", "open_files", "read_answers", "signals", "state_between_questions",
-    "numba_functions", "solution_with_pictures",
+    "numba_kinds", "solution_with_pictures",
 }  # fmt: skip
 
 

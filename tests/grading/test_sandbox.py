@@ -353,6 +353,38 @@ def test_closing_leaves_nothing(kind):
     assert not folder.exists() and process.returncode is not None
 
 
+@each_kind
+def test_closing_with_a_worker_at_work_leaves_no_process(kind):
+    """Nor if the parent does not react: then it is killed, and its workers with it."""
+    if trouble(kind) != "ok":
+        pytest.skip(trouble(kind))
+    for stopped in (False, True):
+        home, wire = nursery.nursery(kind), Wire()
+        home.spawn(Limits(), wire)
+        wire.release()
+        parent = home.process.pid
+        if stopped:
+            os.killpg(parent, signal.SIGSTOP)
+        nursery.forget(kind)
+        deadline = time.monotonic() + (5 if stopped else 0)
+        while (left := in_group(parent)) and time.monotonic() < deadline:
+            time.sleep(0.02)
+        wire.close()
+        assert not left
+
+
+def in_group(leader):
+    """Processes of this group, or below a process of it."""
+    found = {leader}
+    for _ in range(3):
+        for stat in Path("/proc").glob("[0-9]*/stat"):
+            with contextlib.suppress(OSError):
+                about = stat.read_text().rpartition(")")[2].split()
+                if int(about[1]) in found or int(about[2]) == leader:
+                    found.add(int(stat.parent.name))
+    return found - {leader} | ({leader} if Path(f"/proc/{leader}").exists() else set())
+
+
 def test_a_grader_that_is_killed_takes_all_with_it():
     """Even by a signal that it cannot catch, in the middle of an endless question."""
     code = (

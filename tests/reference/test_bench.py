@@ -71,7 +71,7 @@ def test_missing_engine_is_said_and_left_out(tmp_path, capsys, monkeypatch):
 
 
 def test_cases_by_name_or_label_and_unknown_ones(capsys):
-    assert bench.chosen_labels([]) == [*CONTESTS, *CONTACTS, *bench_growth.GROWTHS]
+    assert bench.chosen_labels([]) == list(bench.STUDIES)
     assert bench.chosen_labels(["spring"]) == ["spring/2d", "spring/3d"]
     assert bench.chosen_labels(["spring/2d", "heavy_top"]) == ["spring/2d", "heavy_top"]
     with pytest.raises(SystemExit):

@@ -198,12 +198,13 @@ def test_joints_that_can_not_close_are_refused_and_others_closed():
     assert sides == pytest.approx([1, 1.1, 1.2], abs=1e-11) and "positions at the start" in run.reason
 
 
-def test_limits_and_motors_of_limited_force_are_unsupported():
+def test_limits_and_motors_of_limited_force_are_not_smooth():
     for given in ({"limits": (-1, 1)}, {"motor": (1, 5)}):
         scene = Scene(gravity=(0, -9.81))
         scene.join(Hinge(scene.add(Box((0.5, 0.1))), point=(0, 0), **given))
-        with pytest.raises(Unsupported, match="joint 0, a Hinge, has limits or a motor of limited force"):
-            simulate(scene, 0.1, 0.01)
+        assert model(scene).simulator == "velocity_lcp"
+        with pytest.raises(Unsupported, match="has limits, makes an LCP"):
+            simulate(scene, 0.1, 0.01, simulator="smooth")
 
 
 def test_solver_is_for_joints():

@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import shutil
+import signal
 import socket
 import subprocess
 from multiprocessing.util import Finalize
@@ -107,10 +108,11 @@ class Nursery:
     def close(self):
         if hasattr(self, "process"):
             self.link.close()  # the parent's sign to kill its workers and go
-            with contextlib.suppress(subprocess.TimeoutExpired):
+            try:
                 self.process.wait(3)
-            self.process.kill()
-            self.process.wait()
+            except subprocess.TimeoutExpired:
+                os.killpg(self.process.pid, signal.SIGKILL)  # its workers, too
+                self.process.wait()
         self.complaints.close()
         self.lock.close()
         shutil.rmtree(self.folder, ignore_errors=True)

@@ -152,6 +152,8 @@ def main(number):
     finally:
         for pid in parent.alive:
             os.kill(pid, signal.SIGKILL)
+        for pid in parent.alive:
+            os.waitpid(pid, 0)  # whoever waits for the parent finds no worker any more
 
 
 if __name__ == "__main__":

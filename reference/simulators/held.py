@@ -1,0 +1,88 @@
+"""Joints among contacts: their rows as blocks of one row each, with bounds of λ, beside those of the
+contacts.
+
+    a joint        w = 0              whatever λ it takes
+    a motor        w = its speed      with |λ| ≤ Δt times its force
+    a limit        like a contact: λ ≥ 0, and w ≥ −φ/Δt, which just lets it be reached
+
+Slides S6, S12; lectures/05_contact.md.
+"""
+
+import numpy as np
+
+from ..mechanism import bounded_rows, mechanism_size, rigid_rows
+from ..rows import Rows, fill_rows, make_jacobian
+
+
+class Held:
+    """The joints' rows for a scene laid out as ``bodies``; ``fill`` brings them to a state. m rows; 0
+    without joints.
+    """
+
+    def __init__(self, bodies):
+        rows = [rigid_rows(bodies), bounded_rows(bodies)]
+        joint = np.concatenate([part.joint for part in rows])
+        order = np.argsort(joint, kind="stable")  # a joint's rows stand together
+        self.rows = Rows(*(np.concatenate(arrays)[order] for arrays in zip(*rows, strict=True)))
+        self.jacobian = make_jacobian(len(order), len(bodies.rotating), bodies.dimension)
+        self.force = np.zeros(len(order))  # of the step before, N or N m
+        self.size = mechanism_size(self.rows)
+        lower, upper = self.rows.lower, self.rows.upper
+        self.sign = np.where((upper == 0) & (lower < 0), -1.0, 1.0)  # upper limits are turned round
+        turned = self.sign < 0
+        self.lower, self.upper = np.where(turned, -upper, lower), np.where(turned, -lower, upper)
+        self.limit = (self.lower == 0) & (self.upper > 0)
+        self.motor = ~self.limit & ((self.rows.speed != 0) | (self.upper < np.inf))
+        self.rigid = ~self.limit & ~self.motor
+        self.φ, self.J = np.zeros(len(order)), np.zeros_like(self.jacobian.J)
+
+    def __len__(self):
+        return len(self.force)
+
+    def fill(self, state):
+        """Bring φ and J to a state."""
+        if len(self):
+            fill_rows(self.rows, state, self.jacobian)
+            self.φ, self.J = self.sign * self.jacobian.φ, self.sign[:, None, None] * self.jacobian.J
+
+    def in_flight(self, h):
+        """c, lower and upper of impulses for the time h."""
+        c = np.where(self.motor, -self.rows.speed, np.where(self.limit, np.maximum(self.φ, 0.0) / h, 0.0))
+        return c, h * self.lower, h * self.upper
+
+    def at_impact(self, slack):
+        """The same in no time: motors do nothing, and limits only where they are reached, to slack."""
+        idle = self.motor | (self.limit & (self.φ > slack))
+        lower, upper = (np.where(idle, 0.0, bound) for bound in (self.lower, self.upper))
+        return np.zeros(len(self)), lower, upper
+
+    def to_lift(self):
+        """The same for a move that closes the joints: c is φ; motors have none."""
+        lower, upper = (np.where(self.motor, 0.0, bound) for bound in (self.lower, self.upper))
+        return np.where(self.motor, 0.0, self.φ), lower, upper
+
+    def gap(self):
+        """What is left of a limit, to be used up; inf for what has none."""
+        return np.where(self.limit, self.φ, np.inf)
+
+    def worst(self):
+        """How far a joint is from closed, or a limit passed, at the most."""
+        return max(np.abs(self.φ[self.rigid]).max(initial=0.0), (-self.φ[self.limit]).max(initial=0.0))
+
+    def joined(self, contact, c, lower, upper):
+        """The fields of ContactRows: those of the contacts (see ``contacts.contact_rows``), and then
+        these.
+        """
+        if not len(self):
+            return contact
+        bodies, J, c0, block, μ, lower0, upper0 = contact
+        more = block[-1] + 1 + np.arange(len(self))
+        return (
+            np.concatenate([bodies, self.rows.bodies]),
+            np.concatenate([J, self.J]),
+            np.concatenate([c0, c]),
+            np.concatenate([block, more]),
+            np.concatenate([μ, np.full(len(self), -1.0)]),
+            np.concatenate([lower0, lower]),
+            np.concatenate([upper0, upper]),
+        )
