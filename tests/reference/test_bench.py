@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from reference import bench, bench_growth, bench_methods, bench_report
+from reference import bench, bench_growth, bench_lcp, bench_methods, bench_report
 from reference.bench_contact import CONTACTS, ContactContest
 from reference.bench_contests import CONTESTS, Contest
 from reference.peers import ENGINES
@@ -71,7 +71,8 @@ def test_missing_engine_is_said_and_left_out(tmp_path, capsys, monkeypatch):
 
 
 def test_cases_by_name_or_label_and_unknown_ones(capsys):
-    assert bench.chosen_labels([]) == [*CONTESTS, *CONTACTS, *bench_growth.GROWTHS]
+    assert bench.chosen_labels([])[: len(CONTESTS) + len(CONTACTS)] == [*CONTESTS, *CONTACTS]
+    assert {*bench_growth.GROWTHS, *bench_lcp.LCP_STUDIES} <= set(bench.chosen_labels([]))
     assert bench.chosen_labels(["spring"]) == ["spring/2d", "spring/3d"]
     assert bench.chosen_labels(["spring/2d", "heavy_top"]) == ["spring/2d", "heavy_top"]
     with pytest.raises(SystemExit):

@@ -118,11 +118,13 @@ def test_rocking_block_by_integrating_it_anew():
 
     landed.terminal = True
     first = solve_ivp(
-        lambda t, y: [y[1], -p2 * np.sin(α - y[0])], (0, 2), (0.1, 0.0), events=landed, rtol=1e-11
+        lambda t, y: [y[1], -p2 * np.sin(α - y[0])], (0, 2), (0.1, 0.0), events=landed, rtol=1e-11, atol=1e-13
     )
     assert first.t_events[0][0] == pytest.approx(0.4, abs=0.1)
     left = first.y_events[0][0][1] * (1 - 1.5 * np.sin(α) ** 2)
-    then = solve_ivp(lambda t, y: [y[1], p2 * np.sin(α + y[0])], (first.t[-1], 1.0), (0.0, left), rtol=1e-11)
+    then = solve_ivp(
+        lambda t, y: [y[1], p2 * np.sin(α + y[0])], (first.t[-1], 1.0), (0.0, left), rtol=1e-11, atol=1e-13
+    )
     motion = CASES["rocking_block"]().exact(np.array([first.t[-1] - 1e-6, 1.0]))
     assert motion.orientation[0, 1] == pytest.approx(0, abs=1e-5)
     assert motion.orientation[1, 1] == pytest.approx(then.y[0, -1], rel=1e-6)
