@@ -143,8 +143,8 @@ def residual_table():
         cells = []
         for method, tolerance in cases:
             solution = method(known.problem, tolerance=tolerance, max_iterations=20_000)
-            stopped = "" if solution.solved else f", stopped after 20000 at a residual of {solution.residual:.1g}"
-            cells.append(f"{100 * known.error(solution.lam):.2g} %{stopped}")
+            told = f", stopped after 20000 at a residual of {solution.residual:.1g}"
+            cells.append(f"{100 * known.error(solution.lam):.2g} %{'' if solution.solved else told}")
         yield f"| {n}, top × {heavy} | {' | '.join(cells)} |"
 
 
