@@ -27,11 +27,11 @@ def stack(n=10, heavy=1.0, dimension=2, duration=5.0):
     )
 
 
-def pyramid(base=20, duration=5.0):
-    """Rows of base, base − 1, … 1 squares of 1 m and 1 kg, in the plane."""
+def pyramid(base=20, dimension=2, duration=5.0):
+    """Rows of base, base − 1, … 1 cubes of 1 m and 1 kg."""
     counted(base=base)
     positive(duration=duration)
-    plane = Ground(2)
+    plane = Ground(dimension)
     for row in range(base):
         for k in range(base - row):
             plane.box(0.5, 0.5, (k + 0.5 * row, row + 0.5))

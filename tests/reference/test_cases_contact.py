@@ -13,6 +13,7 @@ ALL = [
     ("stack", {"n": 10, "heavy": 1000}, FRAME, 1e-6),
     ("stack", {"n": 4, "dimension": 3, "duration": 1.0}, FRAME, 1e-6),
     ("pyramid", {"base": 6, "duration": 1.0}, FRAME, 1e-6),
+    ("pyramid", {"base": 3, "dimension": 3, "duration": 0.5}, FRAME, 1e-6),
     ("table", {"duration": 0.5}, FRAME, 1e-6),
     ("overhang", {"n": 4, "share": 0.97}, FRAME, 1e-6),
     ("overhang", {"n": 4, "share": 1.03}, FRAME, 0.0),
