@@ -13,7 +13,7 @@ of the time is small.
 
 A mechanism in a vertical plane is run by both engines: pymunk has it in the plane, pybullet in space.
 ``links`` is another kind of study: what a step costs as a chain grows. Under each table stands what ``model``
-leaves out, since the scene doesn't need it.
+leaves out, since the scene doesn't need it. ``lcp`` compares solvers of the LCP alone (``bench_lcp``).
 
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
@@ -24,13 +24,15 @@ import sys
 from pathlib import Path
 
 from . import cluster
+from .bench_contact import CONTACTS
 from .bench_contests import CONTESTS
 from .bench_growth import GROWTHS
+from .bench_lcp import LCP_STUDIES
 from .bench_report import HEADING
 from .cases.case import Catalogue
 from .peers import ENGINES
 
-STUDIES = Catalogue("case", {**CONTESTS, **GROWTHS})
+STUDIES = Catalogue("case", {**CONTESTS, **CONTACTS, **GROWTHS, **LCP_STUDIES})
 
 DEFAULT_OUT = Path(__file__).resolve().parents[1] / "build" / "bench"
 

@@ -122,6 +122,7 @@ def _contests():
 def _jointed_contests():
     few = _integrators(*_SAME[2], "rk4", solver="cholesky")
     many = _integrators(*_SAME[2], "rk4", solver="sparse") + _integrators("rk4", solver="tree")
+    loops = _integrators(*_SAME[2], "rk4", solver="minimum_norm")
     redundant = _integrators(*_SAME[3], "rk4", solver="minimum_norm")
     engines = {"pymunk": _PYMUNK, "pybullet": (*_TREE, *_RIGID)}
     yield Contest("pendulum", "pendulum", {}, few, engines, both=True)
@@ -134,7 +135,7 @@ def _jointed_contests():
     yield Contest("chain/100/1000/balls", "chain", balls, many, {"pybullet": _RIGID})
     for name in ("four_bar", "slider_crank", "n_four_bars"):
         form = _TREE if name == "slider_crank" else (*_TREE, *_RIGID)
-        yield Contest(name, name, {}, few, {"pymunk": _LOOPS, "pybullet": form}, both=True)
+        yield Contest(name, name, {}, loops, {"pymunk": _LOOPS, "pybullet": form}, both=True)
     for name in ("door", "bricard"):
         yield Contest(name, name, {}, redundant, {"pybullet": (*_TREE, *_RIGID)})
     yield Contest("gimbal_gyroscope", "gimbal_gyroscope", {"precession": 0.0}, few, engines)

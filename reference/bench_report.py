@@ -28,6 +28,7 @@ LOOKS = {
     "splitting4": ("#7F7F7F", "X"),
     "splitting6": ("#332288", "*"),
 }
+OURS = ("#0072B2", "o")  # of a method of ours without an integrator to choose
 ENGINE_LOOKS = [("#D55E00", "s"), ("#000000", "d"), ("#8B4513", "p")]
 FILLS = ("full", "none", "left", "right")  # of marks, where one look serves several methods
 
@@ -174,7 +175,7 @@ def _styles(rows):
         method, settings = row["method"], row["settings"]
         if method not in styles:
             ours = not settings["engine"]
-            colour, mark = LOOKS[settings.get("integrator", method)] if ours else next(engine_looks)
+            colour, mark = LOOKS.get(settings.get("integrator"), OURS) if ours else next(engine_looks)
             fill = FILLS[seen[colour] % len(FILLS)]
             seen[colour] += 1
             styles[method] = {"color": colour, "marker": mark, "ls": "-" if ours else "--", "fillstyle": fill}

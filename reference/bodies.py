@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiled import compiled
+from .compiled import compiled, lean, merged
 from .rotation import (
     add,
     cross,
@@ -75,25 +75,25 @@ def make_state(m, r, d):
     return State(y, x, q, y[j:], v, ω, np.zeros((r if d == 3 else 0, 3)))
 
 
-@compiled
+@lean
 def planar(state):
     """Whether orientations are angles."""
     return state.q.shape[1] == 1
 
 
-@compiled
+@lean
 def times(I, ω):
     """I ω for the principal moments I."""
     return I[0] * ω[0], I[1] * ω[1], I[2] * ω[2]
 
 
-@compiled
+@lean
 def divided(L, I):
     """I⁻¹ L for the principal moments I."""
     return L[0] / I[0], L[1] / I[1], L[2] / I[2]
 
 
-@compiled
+@merged
 def add_gyroscopic_torque(system, state, τ):
     """τ −= ω × I ω, that is τ += L × ω, the inertial part of f_e (S4): I turns with the body."""
     if planar(state):
@@ -104,7 +104,7 @@ def add_gyroscopic_torque(system, state, τ):
         add(τ, i, cross(L, ω))
 
 
-@compiled
+@merged
 def solve_mass(system, q, f, τ):
     """M⁻¹ (f, τ), in place: a force becomes an acceleration, an impulse a change of velocity."""
     for i in range(len(f)):
@@ -118,7 +118,7 @@ def solve_mass(system, q, f, τ):
             store(τ, i, rotate(frame, divided(rotate_back(frame, vector(τ, i)), vector(system.inertia, i))))
 
 
-@compiled
+@merged
 def velocity_to_rate(state, rate):
     """ẋ = v and q̇ = E(q) ω (S9); an angle's rate is ω itself."""
     for i in range(len(state.x)):
@@ -131,7 +131,7 @@ def velocity_to_rate(state, rate):
             store_quaternion(rate.q, i, quaternion_rate(quaternion(state.q, i), vector(state.ω, i)))
 
 
-@compiled
+@merged
 def normalise_all(state):
     """Bring each quaternion back to norm 1."""
     if not planar(state):

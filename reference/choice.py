@@ -1,21 +1,22 @@
 """Which solver for λ a scene's joints need, and why.
 
 Slides S8, S9; lectures/04_embedding.md. Source of the rank: Golub & Van Loan, Matrix Computations (2013),
-section 5.4.1.
+section 8.1.5 (the law of inertia).
 """
 
 from typing import NamedTuple
 
 import numpy as np
+import scipy.sparse
+import scipy.sparse.linalg
 
 from .multipliers.tree import links_of_tree
 from .rows import fill_rows, make_jacobian
 
 FEW = 12  # rows: so many a dense matrix serves as well as any
 HUB = 12  # joints on one body: A has a full block for all of their rows
-DENSE = 500  # rows: up to so many the singular values are worth their cost
-SINGULAR = 1e-6  # a singular value over the largest, below which a row is a sum of others
-NEARLY = 1e-4  # and below which it may become one
+LOOPS = 100  # rows: up to so many their rank is looked at in each evaluation, where joints close loops
+SINGULAR = 1e-6  # of a row's length: where a combination of rows is shorter, one is a sum of others
 
 
 class Choice(NamedTuple):
@@ -39,17 +40,25 @@ def choose_solver(bodies, rows):
         if joints_on_a_body(rows) > HUB:
             return Choice("tree", "no loops, and a body with many joints", m, 0, False)
         return Choice("sparse", "no loops, and few joints on each body", m, 0, False)
-    if m <= DENSE:
-        values = np.linalg.svd(scaled_rows(bodies, rows), compute_uv=False)
-        values = np.concatenate([values, np.zeros(m - len(values))]) / values[0]
-        redundant = int(np.sum(values < SINGULAR))
-        if redundant:
-            return Choice("minimum_norm", f"{redundant} of {m} rows are redundant", m, redundant, True)
-        if values[-1] < NEARLY:
-            return Choice("minimum_norm", "loops near a singular position", m, 0, True)
-    if m <= FEW:
-        return Choice("cholesky", f"loops, but only {m} rows, none of them redundant", m, 0, True)
+    redundant = short_combinations(scaled_rows(bodies, rows), SINGULAR)
+    if redundant:
+        return Choice("minimum_norm", f"{redundant} of {m} rows are redundant", m, redundant, True)
+    if m <= LOOPS:
+        return Choice("minimum_norm", "loops, which may come to a singular position", m, 0, True)
     return Choice("sparse", "loops of many rows", m, 0, True)
+
+
+def short_combinations(J, length):
+    """How many singular values of the rows J (sparse, each of length 1) are below ``length``.
+
+    They are counted, not found: by Sylvester's law of inertia as many pivots of J Jᵀ − length² are negative
+    as it has eigenvalues below 0. So the cost is that of one sparse factorisation.
+    """
+    shifted = J @ J.T - length**2 * scipy.sparse.eye_array(J.shape[0])
+    factor = scipy.sparse.linalg.splu(
+        shifted.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+    )
+    return int(np.sum(factor.U.diagonal() < 0))
 
 
 def joints_on_a_body(rows):
@@ -60,18 +69,25 @@ def joints_on_a_body(rows):
 
 
 def scaled_rows(bodies, rows):
-    """J M^(−1/2) at the start, each row divided by its length: (m, velocities); its square is A, scaled."""
-    m, d = len(rows.kind), bodies.dimension
+    """J M^(−1/2) at the start, each row divided by its length: (m, M k), sparse; its square is A, scaled."""
+    m, d, M = len(rows.kind), bodies.dimension, len(bodies.moving)
     jacobian = make_jacobian(m, len(bodies.rotating), d)
     fill_rows(rows, bodies.state(), jacobian)
-    M, k = len(bodies.moving), jacobian.J.shape[2]
-    J = np.zeros((m, M, k))
+    J, k = jacobian.J, jacobian.J.shape[2]
+    mass = np.ones((M, k))
+    mass[:, :d] = bodies.system.mass[:, None]
+    mass[: len(bodies.moments), d:] = bodies.moments
+    parts = []
     for side in range(2):
-        there = rows.bodies[:, side] >= 0
-        np.add.at(J, (np.flatnonzero(there), rows.bodies[there, side]), jacobian.J[there, side])
-    J[..., :d] /= np.sqrt(bodies.system.mass)[:, None]
-    for i, moments in enumerate(bodies.moments):
-        frame = jacobian.frame[i].reshape(3, 3) if d == 3 else np.eye(1)
-        J[:, i, d:] = J[:, i, d:] @ frame / np.sqrt(moments)
-    J = J.reshape(m, M * k)
-    return J / np.linalg.norm(J, axis=1, keepdims=True)
+        row = np.flatnonzero(rows.bodies[:, side] >= 0)
+        body = rows.bodies[row, side]
+        part = J[row, side]
+        if d == 3:
+            turns = np.flatnonzero(body < len(bodies.moments))
+            frame = jacobian.frame[body[turns]].reshape(-1, 3, 3)
+            part[turns, 3:] = np.einsum("kc,kcx->kx", part[turns, 3:], frame)
+        places = np.repeat(row, k), (body[:, None] * k + np.arange(k)).ravel()
+        parts.append(scipy.sparse.coo_array(((part / np.sqrt(mass[body])).ravel(), places), (m, M * k)))
+    scaled = (parts[0] + parts[1]).tocsr()
+    length = scipy.sparse.linalg.norm(scaled, axis=1)
+    return scipy.sparse.diags_array(1 / np.where(length > 0, length, 1)) @ scaled

@@ -59,15 +59,20 @@ def cache_directory():
     return folder if os.access(folder, os.W_OK) else None
 
 
-def compiled(function):
+def compiled(function=None, *, reorder=False):
     """Compile a function with Numba on its first call, and cache it; without Numba, the function itself.
 
     Division by zero gives inf or nan, as NumPy does, in both forms. Functions are inlined into their callers:
     without that, passing a tuple of arrays costs more than the physics, since Numba counts the references to
     each array. For the same reason kernels don't index a tuple by a variable: that could raise, and on the
     path of an exception the counting can't be optimised away (measured: 27 ns a step became 870).
+    ``@compiled(reorder=True)`` lets a sum be taken in another order, several terms at a time; the last digits
+    may then differ from those of the plain form.
     """
-    return _compile(function) if COMPILED else function
+    if function is None:
+        return functools.partial(compiled, reorder=reorder)
+    order = {"fastmath": {"reassoc"}} if reorder else {}
+    return _compile(function, **order) if COMPILED else function
 
 
 def lean(function):
@@ -96,6 +101,23 @@ def _compile(function, **options):
         return numba.njit(function, **options)
     finally:
         numba.config.CACHE_DIR = before
+
+
+def merged(function):
+    """As ``lean``, for a function called from one place: Numba puts its source there before it compiles.
+
+    So it is compiled once, with its caller, and not by itself first, and again in the caller's caller. In a
+    chain of long functions that halves the time for compiling, or better.
+    """
+    return _compile(function, _nrt=False, inline="always") if COMPILED else function
+
+
+def lean_apart(function):
+    """As ``lean``, but called, not inlined: for long kernels, which would make each of their callers long.
+
+    A call costs some 10 ns for each array handed over, so hand over arrays, not the tuples that hold many.
+    """
+    return _compile(function, _nrt=False, forceinline=False) if COMPILED else function
 
 
 def compiled_apart(function):
@@ -136,8 +158,9 @@ def _bind_compiled(function, *functions):
     bound = " ".join(f"{plain(f).__module__}.{plain(f).__name__}" for f in functions)
     definition.name = f"{source.__name__}_{hashlib.sha256(bound.encode()).hexdigest()[:12]}"
     names = {**source.__globals__, **dict(zip(fixed, functions, strict=True))}
-    make = lean if function.targetoptions.get("_nrt") is False else compiled
-    return make(_defined(tree, definition, names, source.__code__.co_filename))
+    kept = ("_nrt", "forceinline", "inline", "no_cpython_wrapper")  # it is compiled as the function given was
+    options = {name: function.targetoptions[name] for name in kept if name in function.targetoptions}
+    return _compile(_defined(tree, definition, names, source.__code__.co_filename), **options)
 
 
 def _defined(tree, definition, names, file="<source>"):

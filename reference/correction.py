@@ -10,7 +10,7 @@ Slides S9, S13; lectures/04_embedding.md. Source: Hairer & Wanner, Solving Ordin
 import numpy as np
 
 from .bodies import planar, times
-from .compiled import compiled
+from .compiled import merged
 from .embedding import factorise_rows, fill_mass_rows, solve_rows
 from .joints import DISTANCE, LINEAR
 from .rotation import (
@@ -29,7 +29,7 @@ MOST_PROJECTIONS = 20
 CLOSE = 1e-9  # of the mechanism's size: so near, an iteration that doesn't help ends it
 
 
-@compiled
+@merged
 def project(system, state):
     """Bring positions and velocities back to where all joints hold. Returns (iterations, the worst |φ| left).
 
@@ -62,7 +62,7 @@ def project(system, state):
     return iterations, worst
 
 
-@compiled
+@merged
 def fill_position_side(kind, speed, φ, scale, right):
     """right = −φ, 0 for motors, which have no φ. Returns the largest: m over the scale, or rad."""
     worst = 0.0
@@ -73,14 +73,14 @@ def fill_position_side(kind, speed, φ, scale, right):
     return worst
 
 
-@compiled
+@merged
 def fill_velocity_side(J, bodies, speed, v, ω, right):
     """right = speed − J u."""
     for k in range(len(right)):
         right[k] = speed[k] - row_times(J, bodies, k, v, ω)
 
 
-@compiled
+@merged
 def displace(state, x, φ):
     """Move the bodies by x (M, d) m and turn them by the rotation vectors φ (r, 3), or the angles (r, 1)."""
     for i in range(len(x)):
@@ -94,7 +94,7 @@ def displace(state, x, φ):
             store_quaternion(state.q, i, multiply(turn, quaternion(state.q, i)))
 
 
-@compiled
+@merged
 def fill_momenta(inertia, state):
     """L = R I Rᵀ ω, for integrators that carry it from step to step."""
     for i in range(len(state.L)):

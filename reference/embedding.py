@@ -9,12 +9,12 @@ Slides S7–S9; lectures/04_embedding.md.
 """
 
 from .bodies import add_gyroscopic_torque
-from .compiled import compiled
+from .compiled import lean, merged
 from .multipliers import MINIMUM_NORM, factorise, substitute
 from .rows import add_row, add_rows, fill_rows, row_times
 
 
-@compiled
+@merged
 def constrained_force(force, system, t, state, f, τ):
     """f_e + f_c: the external force, and the constraint force Jᵀ λ that keeps the joints' accelerations (S8).
 
@@ -36,7 +36,7 @@ def constrained_force(force, system, t, state, f, τ):
     add_rows(J, bodies, mechanism.λ, f, τ)
 
 
-@compiled
+@merged
 def factorise_rows(system, mechanism):
     """A made ready by the mechanism's solver; ``watch`` keeps the smallest pivot, and the ranks seen."""
     m, J = len(mechanism.λ), mechanism.jacobian.J
@@ -51,14 +51,14 @@ def factorise_rows(system, mechanism):
         watch[1], watch[2] = min(watch[1], rank), max(watch[2], rank)
 
 
-@compiled
+@merged
 def solve_rows(system, mechanism, λ):
     """λ of A λ = right."""
     J, right = mechanism.jacobian.J, mechanism.right
     substitute(mechanism.solver, len(λ), mechanism.factor, J, system.mass, right, λ)
 
 
-@compiled
+@lean
 def copy_rows(a, to):
     """Copy a two-dimensional array."""
     for i in range(len(a)):
@@ -66,14 +66,14 @@ def copy_rows(a, to):
             to[i, c] = a[i, c]
 
 
-@compiled
+@merged
 def fill_acceleration_side(B, bodies, rate, f, τ, right):
     """right = −b = −(J M⁻¹ f_e + J̇ u); τ with the gyroscopic torque."""
     for k in range(len(right)):
         right[k] = -row_times(B, bodies, k, f, τ) - rate[k]
 
 
-@compiled
+@merged
 def add_joint_springs(stiffness, damping, φ, J, bodies, first, state, f, τ):
     """Add Jᵀ λ of the soft rows, from ``first`` on, whose λ = −stiffness φ − damping w is known."""
     for k in range(first, len(φ)):
@@ -81,7 +81,7 @@ def add_joint_springs(stiffness, damping, φ, J, bodies, first, state, f, τ):
         add_row(J, bodies, k, -stiffness[k] * φ[k] - damping[k] * w, f, τ)
 
 
-@compiled
+@merged
 def fill_mass_rows(bodies, J, mass, inertia, frame, B):
     """B = J M⁻¹, row by row."""
     d = 2 if B.shape[2] == 3 else 3
@@ -100,7 +100,7 @@ def fill_mass_rows(bodies, J, mass, inertia, frame, B):
                 divide_by_inertia(inertia, frame, i, J, B, k, side)
 
 
-@compiled
+@lean
 def divide_by_inertia(inertia, frame, i, J, B, k, side):
     """The turning part of B's row: R I⁻¹ Rᵀ times that of J, with R the frame of body i."""
     n0, n1, n2 = J[k, side, 3], J[k, side, 4], J[k, side, 5]

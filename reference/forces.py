@@ -10,11 +10,11 @@ Slide S4; lectures/02_equation_of_motion.md.
 import numpy as np
 
 from .bodies import planar
-from .compiled import compiled
+from .compiled import lean, merged
 from .rotation import add, cross, over_arrays, quaternion, rotate, rotate_in_plane, vector
 
 
-@compiled
+@merged
 def external_force(system, t, state, f, τ):
     """f_e of S4, without the gyroscopic term: fills f and τ. ``t`` is for forces that depend on time."""
     τ[:] = 0
@@ -25,7 +25,7 @@ def external_force(system, t, state, f, τ):
         add_gravitation(system, state, f)
 
 
-@compiled
+@merged
 def add_gravity(system, f):
     """f = m g; the first force, so it sets f."""
     for i in range(len(f)):
@@ -33,7 +33,7 @@ def add_gravity(system, f):
             f[i, k] = system.mass[i] * system.gravity[k]
 
 
-@compiled
+@lean
 def attachment(state, i, points, s, end):
     """Arm, position and velocity, three components each, of an end of spring s, on body i (−1: the world)."""
     d = state.x.shape[1]
@@ -54,7 +54,7 @@ def attachment(state, i, points, s, end):
     return arm, position, (v[0] + turning[0], v[1] + turning[1], v[2] + turning[2])
 
 
-@compiled
+@lean
 def apply_at(f, τ, i, arm, force):
     """Add a force that acts on body i at the end of ``arm``: the force to f, its moment arm × force to τ."""
     if i < 0:
@@ -72,7 +72,7 @@ def apply_at(f, τ, i, arm, force):
             τ[i, 0] += moment[2]
 
 
-@compiled
+@merged
 def add_springs(system, state, f, τ):
     """k (|Δ| − length) + c d|Δ|/dt along the spring, on both ends; 0 where they coincide: no direction."""
     for s in range(len(system.spring_law)):
@@ -91,7 +91,7 @@ def add_springs(system, state, f, τ):
         apply_at(f, τ, b, arm_b, (-tension * n[0], -tension * n[1], -tension * n[2]))
 
 
-@compiled
+@merged
 def add_drag(system, state, f, τ):
     """−linear·v and −angular·ω."""
     for row in range(len(system.drag_bodies)):
@@ -104,7 +104,7 @@ def add_drag(system, state, f, τ):
                 τ[i, k] -= angular * state.ω[i, k]
 
 
-@compiled
+@merged
 def add_gravitation(system, state, f):
     """G m_i m_j / r² along the line between them: among all that move, and towards the static masses."""
     G, d = system.gravitation, f.shape[1]
@@ -122,7 +122,7 @@ def add_gravitation(system, state, f):
                 f[i, k] += scale * (system.fixed_positions[j, k] - state.x[i, k])
 
 
-@compiled
+@lean
 def inverse_cube(a, i, b, j):
     """1 / |b_j − a_i|³ for rows of positions."""
     squared = 0.0

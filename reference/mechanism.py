@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .compiled import compiled
+from .compiled import lean
 from .joints import DISTANCE, LINEAR, TURN
 from .multipliers import Factor
 from .rows import Jacobian, Rows, fill_rows, make_jacobian
@@ -165,7 +165,7 @@ def _start_angle(bodies, i, j):
     )
 
 
-@compiled
+@lean
 def fill_positions(rows, states, state, out, φ):
     """φ (T, m) for the records ``states`` (T, size of y), one after the other."""
     for t in range(len(states)):
@@ -201,5 +201,7 @@ def worst_gap(bodies, position, orientation):
 def spring_energy(bodies, position, orientation):
     """Energy of the springs along the joints' coordinates, J: (T,)."""
     rows = soft_rows(bodies)
+    if len(rows.kind) == 0:
+        return np.zeros(len(position))
     φ = positions_of_rows(bodies, rows, position, orientation)
     return 0.5 * np.square(φ) @ rows.stiffness

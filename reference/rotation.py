@@ -14,10 +14,10 @@ Slides S4, S9; lectures/02_equation_of_motion.md. Source: Diebel, Representing A
 
 import numpy as np
 
-from .compiled import compiled, plain
+from .compiled import lean, plain
 
 
-@compiled
+@lean
 def multiply(p, q):
     """The Hamilton product p ⊗ q: first the rotation q, then p."""
     return (
@@ -28,13 +28,13 @@ def multiply(p, q):
     )
 
 
-@compiled
+@lean
 def conjugate(q):
     """q*, the inverse rotation of a unit quaternion."""
     return q[0], -q[1], -q[2], -q[3]
 
 
-@compiled
+@lean
 def rotate(q, r):
     """q ⊗ r ⊗ q*: the vector r taken from the body's frame to the world's."""
     tx = 2 * (q[2] * r[2] - q[3] * r[1])
@@ -47,37 +47,37 @@ def rotate(q, r):
     )
 
 
-@compiled
+@lean
 def rotate_back(q, r):
     """q* ⊗ r ⊗ q: the vector r taken from the world's frame to the body's."""
     return rotate(conjugate(q), r)
 
 
-@compiled
+@lean
 def vector(a, i):
     """Row i of an array (n, 3) as components."""
     return a[i, 0], a[i, 1], a[i, 2]
 
 
-@compiled
+@lean
 def quaternion(a, i):
     """Row i of an array (n, 4) as components."""
     return a[i, 0], a[i, 1], a[i, 2], a[i, 3]
 
 
-@compiled
+@lean
 def store(a, i, r):
     """Write the components r of a vector into row i of an array (n, 3)."""
     a[i, 0], a[i, 1], a[i, 2] = r
 
 
-@compiled
+@lean
 def store_quaternion(a, i, q):
     """Write the components of q into row i of an array (n, 4)."""
     a[i, 0], a[i, 1], a[i, 2], a[i, 3] = q
 
 
-@compiled
+@lean
 def add(a, i, r):
     """Add the components of a vector to row i of an array (n, 3)."""
     a[i, 0] += r[0]
@@ -85,31 +85,31 @@ def add(a, i, r):
     a[i, 2] += r[2]
 
 
-@compiled
+@lean
 def cross(a, b):
     """The vector product a × b."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-@compiled
+@lean
 def dot(a, b):
     """The scalar product a · b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@compiled
+@lean
 def plus(a, b):
     """a + b."""
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
-@compiled
+@lean
 def minus(a, b):
     """a − b."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
-@compiled
+@lean
 def quaternion_rate(q, ω):
     """q̇ = E(q) ω = ½ (0, ω) ⊗ q, for ω in the world frame (S9)."""
     return (
@@ -120,7 +120,7 @@ def quaternion_rate(q, ω):
     )
 
 
-@compiled
+@lean
 def exponential(φ):
     """The quaternion of the rotation vector φ: by |φ| radians about φ. Its norm is 1 to rounding, for
     any φ.
@@ -130,7 +130,7 @@ def exponential(φ):
     return np.cos(angle / 2), s * φ[0], s * φ[1], s * φ[2]
 
 
-@compiled
+@lean
 def cayley(φ):
     """The quaternion of the Cayley map: about φ, by 2 atan(|φ|/2) radians; equals ``exponential`` to
     O(|φ|³).
@@ -139,14 +139,14 @@ def cayley(φ):
     return w, 0.5 * w * φ[0], 0.5 * w * φ[1], 0.5 * w * φ[2]
 
 
-@compiled
+@lean
 def normalise(q):
     """q / |q|."""
     scale = 1 / np.sqrt(q[0] ** 2 + q[1] ** 2 + q[2] ** 2 + q[3] ** 2)
     return scale * q[0], scale * q[1], scale * q[2], scale * q[3]
 
 
-@compiled
+@lean
 def solve3(a, b, c, r):
     """x of the three equations a·x = r₀, b·x = r₁, c·x = r₂, by Cramer's rule."""
     bc, ca, ab = cross(b, c), cross(c, a), cross(a, b)

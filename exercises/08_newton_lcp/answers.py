@@ -20,7 +20,7 @@ def penalised(v, sign=1, parts=True, root=True, shares="right"):
     return τ * (a + b - size) + sign * rest * product
 
 
-def slopes(v, penalty=True, swapped=False, corner=1 - np.sqrt(0.5)):
+def slopes(v, penalty=True, swapped=False, corner=0.29289321881345254):
     """Derivatives of ``penalised`` by a and by b."""
     a, b, τ = v["a"], v["b"], v["tau"]
     size = np.hypot(a, b)

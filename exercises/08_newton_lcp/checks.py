@@ -82,10 +82,6 @@ SLOPES = Check(
             "At (0, 0) the slopes are 0: so the row of Newton's matrix would be 0, and the matrix singular.",
             lambda v: right.slopes(v, corner=0.0),
         ),
-        cause(
-            "At (0, 0) a/√(a² + b²) is 0/0, which is NaN: there, take the limit along a = b > 0, 1/√2.",
-            lambda v, verdict: np.isnan(np.array(verdict.got, dtype=float)).any(),
-        ),
     ),
     hint="By a: tau (1 − a/√(a² + b²)), and (1 − tau) b where both are positive. At (0, 0): tau (1 − 1/√2).",
 )
@@ -135,7 +131,7 @@ NEWTON_MATRIX = Check(
             lambda v: right.newton_matrix(v, own=False),
         ),
     ),
-    hint="Row i: (derivative by b)_i times row i of M, plus (derivative by a)_i on the diagonal, at a = λ and "
+    hint="Row i: (derivative by b)_i times row i of M, plus (derivative by a)_i on the diagonal, at a = λ, "
     "b = M λ + q.",
 )
 
@@ -188,7 +184,7 @@ STEP_LENGTH = Check(
             lambda v: right.step_length(v, further=0.5),
         ),
         cause_like(
-            "The whole slope is asked for: a share of 1e-4 of it is enough, and with a curved ψ more can't be had.",
+            "The whole slope is asked for: a share of 1e-4 of it is enough; a curved ψ never gives all.",
             lambda v: right.step_length(v, share=1.0),
         ),
     ),
@@ -241,7 +237,7 @@ SOLVE = Check(
     ),
     hidden=lambda stream: list(hard_problems(stream)),
     judge=equal(right.solve, 1e-6),
-    why="M is a P-matrix, so there is one λ. Newton's method doubles the right digits in each step near it, so "
+    why="M is a P-matrix, so there is one λ. Newton's method doubles the right digits in each step near it: "
     "1e-12 costs no more than one step beyond 1e-6.",
     form="an array (n,)",
     section="The line search",
@@ -259,8 +255,8 @@ SOLVE = Check(
             lambda v, verdict: np.min(np.array(verdict.got, dtype=float), initial=0) < -1e-6,
         ),
     ),
-    hint="φ = penalised(λ, w, tau), ψ = ½ Σ φ². Solve H Δ = −φ, then λ ← λ + t Δ with t = step_length(ψ, λ, Δ, "
-    "−Σ φ²): H Δ = −φ makes that the slope of ψ.",
+    hint="φ = penalised(λ, w, tau), ψ = ½ Σ φ². Solve H Δ = −φ, then λ ← λ + t Δ with "
+    "t = step_length(ψ, λ, Δ, −Σ φ²): H Δ = −φ makes that the slope of ψ.",
 )
 
 
@@ -300,8 +296,8 @@ ON_PATH = Check(
             lambda v: right.on_path(v, 1e-9),
         ),
     ),
-    hint="Newton's method on λ + w − √((λ − w)² + 4 μ²) = 0, with your step_length. With s = (λ − w)/√(…), the "
-    "matrix is (1 − s) on the diagonal, plus (1 + s) times the rows of M.",
+    hint="Newton's method on λ + w − √((λ − w)² + 4 μ²) = 0, with your step_length. With s = (λ − w)/√(…), "
+    "the matrix is (1 − s) on the diagonal, plus (1 + s) times the rows of M.",
 )
 
 CHECKS = (PENALISED, SLOPES, NEWTON_MATRIX, STEP_LENGTH, SOLVE, ON_PATH)

@@ -5,14 +5,20 @@ Each entry is a function of the case's parameters, all with defaults, that retur
 Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
 
+from .arches import arch
 from .bricard import bricard
 from .case import Case, Catalogue, Motion
 from .chains import chain, hanging_chain
 from .free_motion import free_fall, planar_flight, projectile_drag, spring, tumbling_box
 from .gimbal import gimbal_gyroscope
+from .impacts import bounce, cradle
 from .linkages import four_bar, n_four_bars, slider_crank
 from .orbits import two_body_orbit
 from .pendulums import door, double_pendulum, pendulum
+from .plate import rolling_plate
+from .rods import painleve, rocking_block
+from .slopes import rolling, slope, spinning_disc
+from .stacks import overhang, pyramid, stack, table
 from .tops import heavy_top, torque_free_top
 
 CASES = Catalogue(
@@ -38,6 +44,19 @@ CASES = Catalogue(
             n_four_bars,
             bricard,
             gimbal_gyroscope,
+            stack,
+            pyramid,
+            table,
+            overhang,
+            arch,
+            slope,
+            rolling,
+            spinning_disc,
+            bounce,
+            cradle,
+            rolling_plate,
+            painleve,
+            rocking_block,
         )
     },
 )

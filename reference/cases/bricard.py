@@ -9,7 +9,7 @@ bars that follow each other, π/2 at the start, the ring closes if and only if
 That is a closed curve. It is followed by a coordinate χ that stops nowhere, with ds/dχ = cos(s/2) sin(t/2)
 and dt/dχ = −sin(s/2) cos(t/2); and d'Alembert's principle along it is one equation for χ̈ (as in ``bars``).
 
-Slides S3, S5; lectures/04_embedding.md. Source: Bricard, J. Math. Pures Appl. 3 (1897) 113; Chen, You &
+Slides S3, S5, S9; lectures/04_embedding.md. Source: Bricard, J. Math. Pures Appl. 3 (1897) 113; Chen, You &
 Tarnai, Int. J. Solids Struct. 42 (2005) 2287, for the closure; the IFToMM library of benchmarks.
 """
 

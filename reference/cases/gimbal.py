@@ -10,7 +10,7 @@ with J = I_inner,2 + I_rotor,1 + m l² − I_inner,3. What is left is one equati
 
 the precession is steady where its right-hand side is 0.
 
-Slides S4, S5; lectures/04_embedding.md. Source: Goldstein, Classical Mechanics (1980), section 5-7, to
+Slides S4, S5, S9; lectures/04_embedding.md. Source: Goldstein, Classical Mechanics (1980), section 5-7, to
 which the rings' moments are added.
 """
 

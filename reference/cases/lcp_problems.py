@@ -90,10 +90,11 @@ def jacobi_fails(n=3, coupling=0.9):
     return Known(LCP(A, -np.ones(n)), answer, "by symmetry", "positive definite, and Jacobi diverges")
 
 
-def column(n=10, heavy=1.0, factored=False):
+def column(n=10, heavy=1.0, factored=False, chain=False):
     """A column of n boxes of 1 kg, the top one ``heavy`` times that, λ as n impulses from below, g h = 1.
 
-    Row i is between box i − 1 (or the ground) and box i; λ_i carries all that lies above.
+    Row i is between box i − 1 (or the ground) and box i; λ_i carries all that lies above. chain: the same
+    upside down, n links that hang from one another, a linear system: rows without bounds.
     """
     n, heavy = inputs.whole("n", n, least=1), inputs.number("heavy", heavy, above=0)
     mass = np.ones(n)
@@ -105,7 +106,30 @@ def column(n=10, heavy=1.0, factored=False):
     b[0] = -1  # all boxes fall alike, only the lowest towards something that doesn't
     answer = np.cumsum(mass[::-1])[::-1].copy()
     hard = "what the ground does reaches the top in n sweeps at best; with a heavy top in ever more (S15)"
-    return Known(LCP(A if factored else A.tosparse(), b), answer, "statics", hard)
+    lower = -np.inf if chain else 0
+    return Known(LCP(A if factored else A.tosparse(), b, lower), answer, "statics", hard)
+
+
+def tower(n=10, aspect=1.0, inertia=1.0):
+    """A column of n boxes in the plane that touch at both ends of their width, 1 kg, g h = 1, no friction.
+
+    aspect: a box's height over its width. inertia: times that of a box filled evenly. Only κ = m r²/I of a
+    contact counts, r half the width: 3/(1 + aspect²)/inertia. Rows 2i, 2i + 1 are the left and right contact
+    below box i; each carries half of what lies above.
+    """
+    n = inputs.whole("n", n, least=1)
+    aspect, inertia = inputs.number("aspect", aspect, above=0), inputs.number("inertia", inertia, above=0)
+    κ = 3 / (1 + aspect**2) / inertia
+    lower = np.repeat(np.arange(n) - 1, 2)
+    bodies = np.stack([lower, lower + 1], axis=1)
+    lever = np.tile([-1.0, 1.0], n)
+    J = np.stack([np.ones(2 * n), lever], axis=1)[:, None, :] * [[[-1.0], [1.0]]]  # velocity, and r ω
+    A = Factored(bodies, J, J * (1, κ), n)
+    b = np.zeros(2 * n)
+    b[:2] = -1
+    answer = np.repeat((n - np.arange(n)) / 2.0, 2)
+    hard = "long narrow boxes (κ small) and small inertia (κ large) converge slowly, and Jacobi fails (S15)"
+    return Known(LCP(A.tosparse(), b), answer, "statics", hard)
 
 
 def heavy_on_light(ratio=100.0):
@@ -221,7 +245,7 @@ LCP_PROBLEMS = Catalogue(
     {
         function.__name__: function
         for function in (
-            easy, kostreva, murty_2_8, lemke_exponential, murty_exponential, jacobi_fails, column,
+            easy, kostreva, murty_2_8, lemke_exponential, murty_exponential, jacobi_fails, column, tower,
             heavy_on_light, no_solution, several_solutions, redundant, zero_diagonal, degenerate, painleve,
             sliding_contact, dragged_block, planted,
         )

@@ -5,12 +5,12 @@ Integration (2006), sections I.1 and VI.3.
 """
 
 from ..bodies import add_gyroscopic_torque, normalise_all, planar, solve_mass, times, velocity_to_rate
-from ..compiled import compiled
+from ..compiled import lean, merged
 from ..rotation import cross, quaternion, rotate, rotate_back, solve3, store, vector
 from .parts import add_scaled, drift
 
 
-@compiled
+@merged
 def explicit_euler(force, system, t, h, state, work):
     """y ← y + h ẏ: all rates from the start of the step. Order 1; a spring's energy grows in every step."""
     rate = work.rate
@@ -22,7 +22,7 @@ def explicit_euler(force, system, t, h, state, work):
     normalise_all(state)
 
 
-@compiled
+@merged
 def symplectic_euler(force, system, t, h, state, work):
     """Velocity first: u ← u + h M⁻¹ f(x, u), then positions with the new u (S9; what pybullet and Box2D
     do).
@@ -35,7 +35,7 @@ def symplectic_euler(force, system, t, h, state, work):
     drift(state, h)
 
 
-@compiled
+@merged
 def symplectic_euler_position_first(force, system, t, h, state, work):
     """Position first: x ← x + h v, then u ← u + h M⁻¹ f(new x, u); the adjoint of the other one (what
     pymunk does).
@@ -48,7 +48,7 @@ def symplectic_euler_position_first(force, system, t, h, state, work):
     add_scaled(state.u, h, rate.u)
 
 
-@compiled
+@merged
 def implicit_gyroscopic(force, system, t, h, state, work):
     """Velocity first, with the gyroscopic term at the end of the step, by one step of Newton's method.
 
@@ -66,7 +66,7 @@ def implicit_gyroscopic(force, system, t, h, state, work):
     drift(state, h)
 
 
-@compiled
+@lean
 def gyroscopic_newton_step(s, I, h):
     """The angular velocity after one step towards I (s′ − s) + h s′ × I s′ = 0, all in the body's
     principal frame.

@@ -8,16 +8,20 @@ from typing import NamedTuple
 import numpy as np
 
 from ..bodies import State, make_state, planar
-from ..compiled import compiled
+from ..compiled import compiled, lean
 from ..rotation import exponential, multiply, quaternion, store_quaternion
 
 
 class Work(NamedTuple):
-    """Room to compute in, shaped like the state; ``solve``: [iterations, residual] of an implicit step."""
+    """Room to compute in, shaped like the state; ``before``: y at the start of a step, to go back to.
+
+    ``solve``: [iterations, residual] of an implicit step.
+    """
 
     rate: State
     start: State
     total: State
+    before: np.ndarray
     solve: np.ndarray
     max_iterations: int
     tolerance: float
@@ -26,26 +30,25 @@ class Work(NamedTuple):
 @compiled
 def make_work(m, r, d, max_iterations, tolerance):
     """Work for m bodies in d dimensions, of which r rotate."""
-    return Work(
-        make_state(m, r, d), make_state(m, r, d), make_state(m, r, d), np.zeros(2), max_iterations, tolerance
-    )
+    rate, start, total = make_state(m, r, d), make_state(m, r, d), make_state(m, r, d)
+    return Work(rate, start, total, np.zeros(len(rate.y)), np.zeros(2), max_iterations, tolerance)
 
 
-@compiled
+@lean
 def add_scaled(y, h, rate):
     """y += h · rate, for flat arrays."""
     for k in range(len(y)):
         y[k] += h * rate[k]
 
 
-@compiled
+@lean
 def copy(y, to):
     """Copy a flat array."""
     for k in range(len(y)):
         to[k] = y[k]
 
 
-@compiled
+@lean
 def drift(state, h):
     """Motion for the time h at constant velocities: x += h v; each q turns by h ω, which keeps its norm."""
     for i in range(len(state.x)):

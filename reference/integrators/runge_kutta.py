@@ -7,14 +7,14 @@ Slides S4, S9; lectures/02_equation_of_motion.md. Source: Kutta, Z. Math. Phys. 
 import numpy as np
 
 from ..bodies import add_gyroscopic_torque, normalise_all, solve_mass, velocity_to_rate
-from ..compiled import compiled
+from ..compiled import merged
 from .parts import add_scaled, copy
 
 RK4_WHEN = np.array([0, 1 / 2, 1 / 2, 1])  # in steps
 RK4_WEIGHT = np.array([1 / 6, 1 / 3, 1 / 3, 1 / 6])
 
 
-@compiled
+@merged
 def rk4(force, system, t, h, state, work):
     """The classical Runge–Kutta method of order 4: a weighted mean of four rates. Source: Kutta (1901)."""
     rate, start, total = work.rate, work.start, work.total

@@ -12,7 +12,7 @@ Integration (2006), sections II.4, II.5, V.3 and VII.5; others at each function.
 import numpy as np
 
 from ..bodies import divided, planar, solve_mass
-from ..compiled import compiled
+from ..compiled import lean, merged
 from ..rotation import (
     cayley,
     exponential,
@@ -29,7 +29,7 @@ from ..rotation import (
 from .parts import add_scaled, copy
 
 
-@compiled
+@merged
 def splitting(force, system, t, h, state, work):
     """Half a drift, a kick, half a drift (Strang). Order 2, symmetric, symplectic; keeps L of a free body.
 
@@ -45,7 +45,7 @@ def splitting(force, system, t, h, state, work):
     drift_by_axes(system, h / 2, state)
 
 
-@compiled
+@merged
 def implicit_midpoint(force, system, t, h, state, work):
     """As ``splitting``, with a drift that keeps both the energy and the angular momentum of a free body.
 
@@ -60,7 +60,7 @@ def implicit_midpoint(force, system, t, h, state, work):
     drift_by_midpoint(system, h / 2, state, work)
 
 
-@compiled
+@lean
 def kick(system, h, state, forces):
     """u += h M⁻¹ f and L += h τ, at fixed positions (no gyroscopic term). Overwrites the forces."""
     for i in range(len(state.L)):
@@ -69,14 +69,14 @@ def kick(system, h, state, forces):
     add_scaled(state.u, h, forces.u)
 
 
-@compiled
+@lean
 def move_half_kicked(system, h, state, work):
     """The state after half a kick, in ``work.start``."""
     copy(state.y, work.start.y)
     kick(system, h / 2, work.start, work.rate)
 
 
-@compiled
+@lean
 def drift_by_axes(system, h, state):
     """Free motion for the time h: rotations about the principal axes 1, 2, 3, 2, 1, one after the other."""
     drift_all_but_rotation(state, h)
@@ -92,7 +92,7 @@ def drift_by_axes(system, h, state):
         finish_free_rotation(state, i, normalise(q), I)
 
 
-@compiled
+@lean
 def drift_by_midpoint(system, h, state, work):
     """Free motion for the time h, with the angular velocity of the middle: L_m = L + ½ h L_m × I⁻¹ L_m.
 
@@ -111,7 +111,7 @@ def drift_by_midpoint(system, h, state, work):
         finish_free_rotation(state, i, normalise(q), I)
 
 
-@compiled
+@lean
 def drift_all_but_rotation(state, h):
     """x += h v; an angle in the plane turns by h ω."""
     for i in range(len(state.x)):
@@ -121,21 +121,21 @@ def drift_all_but_rotation(state, h):
         state.q[i, 0] += h * state.ω[i, 0]
 
 
-@compiled
+@lean
 def turn_body(q, L, φ):
     """Turn a body by φ, in its own frame; the momentum L, as seen from it, turns back. Returns (q, L)."""
     turned = exponential(φ)
     return multiply(q, turned), rotate_back(turned, L)
 
 
-@compiled
+@lean
 def finish_free_rotation(state, i, q, I):
     """The new attitude, and its ω = R I⁻¹ Rᵀ L: in the world, L is what it was, to the last bit."""
     store_quaternion(state.q, i, q)
     store(state.ω, i, rotate(q, divided(rotate_back(q, vector(state.L, i)), I)))
 
 
-@compiled
+@lean
 def solve_midpoint(L0, I, h, max_iterations, tolerance):
     """L = L0 + ½ h L × I⁻¹ L by Newton's method: L (3,), iterations, and the residual relative to |L0|."""
     a = h / 2 * (1 / I[2] - 1 / I[1])
@@ -169,7 +169,7 @@ COMPOSITION6 = np.array([
 ])  # fmt: skip
 
 
-@compiled
+@merged
 def compose4(step, system, t, h, state, work):
     """Five steps of a symmetric method of order 2, the third of them backwards: order 4.
 
@@ -182,7 +182,7 @@ def compose4(step, system, t, h, state, work):
         t += share
 
 
-@compiled
+@merged
 def compose6(step, system, t, h, state, work):
     """Nine steps of a symmetric method of order 2, the third and seventh of them backwards: order 6.
 

@@ -25,8 +25,8 @@ is the whole solver. The kernel is written once for every form of A,
 
 For example, all of ``sor`` but its docstring:
 
-    def sor(problem, start=None, tolerance=1e-10, max_iterations=1000, *, omega=1.6, every=1):
-        options = natural_order, inputs.number("omega", omega, above=0), inputs.whole("every", every, least=1)
+    def sor(problem, start=None, tolerance=1e-10, max_iterations=1000, *, omega=1.6, every=None):
+        options = natural_order, relaxation(omega), how_often(every)
         return iterate(sweeps, problem, start, tolerance, max_iterations, options=options)
 
 The first four of the kernel come from ``operators``, ``terms`` is what stands beside A, λ is start and
@@ -40,25 +40,35 @@ an iteration, dense or sparse (``direct``). Gradients (``apgd``) are compiled as
 **The exact cone** (unit 08): ``cone_gauss_seidel``, ``cone_apgd``, ``cone_newton``, for a ``ConeProblem``;
 a step takes ``cone_newton_kernel`` on arrays of its own.
 
-**Pivoting** (unit 06): ``kernel(A, b, lower, upper, λ, w, …) -> (pivots, code)`` on a dense A, ``toarray()``.
+**Pivoting** (unit 06): a rule of principal pivots is ``kernel(state, most, *options) -> (pivots, code)``, and
+``rounds.by_principal_pivots`` the rest; ``lemke`` and ``enumeration`` take the plain form (``standard``).
 
 Slides S11–S17; lectures/06_pivoting_lcp.md, lectures/07_iterative_lcp.md, lectures/08_newton_lcp.md.
 """
 
 from .apgd import apgd
+from .block import block_gauss_seidel, block_jacobi
 from .cone_apgd import cone_apgd
 from .cone_gauss_seidel import cone_gauss_seidel
 from .cone_newton import cone_newton
+from .dantzig import dantzig
+from .enumeration import enumeration
 from .fischer import fischer_newton
 from .gauss_seidel import gauss_seidel
 from .interior_point import interior_point
+from .jacobi import damped_jacobi, jacobi
+from .lemke import lemke
 from .min_map import min_map_newton
+from .murty import murty
 from .nncg import nncg
 from .problem import LCP, ConeProblem
 from .solution import STATUSES, Solution
+from .sor import red_black, sor, symmetric_gauss_seidel
 
 _METHODS = (
-    gauss_seidel,
+    *(enumeration, murty, dantzig, lemke),  # pivoting
+    *(jacobi, damped_jacobi, gauss_seidel, symmetric_gauss_seidel, sor, red_black),  # splitting
+    *(block_jacobi, block_gauss_seidel),
     *(min_map_newton, fischer_newton, interior_point, nncg, apgd),
     *(cone_gauss_seidel, cone_apgd, cone_newton),
 )

@@ -103,7 +103,7 @@ def project(rows, q, first, end, out):
     for r in range(first + 1, end):
         along += y[r] ** 2
     tangential = np.sqrt(along)
-    if tangential <= μ * n:  # within the cone: it sticks
+    if n >= 0 and tangential <= μ * n:  # within the cone: it sticks
         out.state[q] = STICKS
         for r in range(first, end):
             out.slope[r, r - first] = 1.0

@@ -13,14 +13,15 @@ import scipy.sparse.linalg
 
 from ..factored import Factored
 
-_DENSE = 150  # rows up to which a sparse system is solved faster as a dense one
+_DENSE = 150  # rows up to which a sparse system is cut and solved faster as a dense one
 _GOOD = 1e-7  # what a solve must leave of the right side, to be taken for a solution
 _DAMPING = 1e-10
 
 
 def formed(A):
-    """A as a dense array or a csr_array: direct methods need its entries."""
-    return A.tosparse() if isinstance(A, Factored) else A
+    """A as an array, or as a csr_array where it is sparse and large: direct methods need its entries."""
+    A = A.tosparse() if isinstance(A, Factored) else A
+    return A.toarray() if scipy.sparse.issparse(A) and A.shape[0] <= _DENSE else A
 
 
 def solve(H, r):

@@ -68,15 +68,15 @@ def _iterate(problem, λ, tolerance, most):
 
 def fischer_burmeister(a, b):
     """φ(a, b), ∂φ/∂a and ∂φ/∂b, elementwise; a may be inf, where φ = b."""
-    s = np.hypot(a, b)
-    total = a + b
+    far = np.isinf(a)
+    a = np.where(far, 1, a)
+    s, total = np.hypot(a, b), a + b
     # a + b − s loses all digits where one of a, b is small beside the other: 2ab/(a + b + s) is the same
-    φ = np.where(total > 0, 2 * a * b / (total + s), total - s)
+    φ = np.where(total > 0, 2 * a * b / np.where(total > 0, total + s, 1), total - s)
     kink = s == 0
     s = np.where(kink, 1, s)
     corner = 1 - np.sqrt(0.5)
     φ_a, φ_b = np.where(kink, corner, 1 - a / s), np.where(kink, corner, 1 - b / s)
-    far = np.isinf(a)
     return np.where(far, b, φ), np.where(far, 0, φ_a), np.where(far, 1, φ_b)
 
 

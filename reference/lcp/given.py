@@ -2,7 +2,7 @@
 
 Each function names the argument, what it got and what would be right, as those of ``reference.inputs`` do.
 
-Slides S11, S12, S17; lectures/06_pivoting_lcp.md.
+Slides S11, S12, S13, S17; lectures/06_pivoting_lcp.md.
 """
 
 import numpy as np

@@ -19,6 +19,7 @@ Methods (1997), chapter 8.
 """
 
 import numpy as np
+import scipy.optimize
 import scipy.sparse
 
 from .direct import factored_solve, formed
@@ -28,6 +29,7 @@ from .solution import CYCLE, DIVERGED, INFEASIBLE, MAX_ITERATIONS, SOLVED, finis
 
 _SHORT = 1e-9  # a step so short leads nowhere
 _FAR = 1e5  # times the scale of λ: where to look for a proof that there is no solution
+_LARGEST = 1000  # rows up to which a proof is looked for
 _STUCK = (
     "The steps have become too short to lead anywhere, with a residual of {residual:.2g}: the problem is not "
     "monotone (A not positive semidefinite), or has no solution, or rounding allows no more."
@@ -43,8 +45,8 @@ def interior_point(problem, start=None, tolerance=1e-10, max_iterations=1000):
 
     start (n,): only its size is used, since the method starts in the middle; None: λ⁰. One iteration is a
     linear system of all n rows, factored once (a factored A is formed). ``unsuitable`` for bounds that depend
-    on λ (friction), and where some A_ii < 0. Says ``infeasible``, with a certificate, where λ runs off along
-    one. Returns a ``Solution``. Raises ValueError or TypeError for bad arguments.
+    on λ (friction), and where some A_ii < 0. Says ``infeasible``, with a certificate, where λ runs off and
+    a linear program finds one. Returns a ``Solution``. Raises ValueError or TypeError for bad arguments.
     """
     λ, tolerance, most = checked(problem, start, tolerance, max_iterations)
     already = solved_already(problem, λ, tolerance)
@@ -97,7 +99,7 @@ class _Middle:
 
 def _iterate(problem, tolerance, most):
     """(λ, history, code, reason, certificate)."""
-    middle, history = _Middle(problem), []
+    middle, history, far = _Middle(problem), [], _FAR * problem.scale
     for k in range(most + 1):
         residual = problem.residual(middle.λ)
         history.append(residual)
@@ -105,12 +107,14 @@ def _iterate(problem, tolerance, most):
             return middle.λ, history, SOLVED if residual <= tolerance else DIVERGED, None, None
         if k == most:
             break
-        if np.abs(middle.λ).max() > _FAR * problem.scale:
-            proof = _certificate(problem, middle.λ)
+        stuck = not _advance(problem, middle) > _SHORT
+        if (stuck or np.abs(middle.λ).max() > far) and residual > tolerance:
+            far = np.inf  # once is enough
+            proof = _certificate(problem)
             if proof is not None:
-                return middle.λ, history, INFEASIBLE, _PROOF, {"y": proof}
-        if not _advance(problem, middle) > _SHORT:
-            return middle.λ, history, CYCLE, _STUCK.format(residual=residual), None
+                return middle.λ, [*history, residual], INFEASIBLE, _PROOF, {"y": proof}
+        if stuck:
+            return middle.λ, [*history, residual], CYCLE, _STUCK.format(residual=residual), None
     return middle.λ, history, MAX_ITERATIONS, None, None
 
 
@@ -158,13 +162,14 @@ def _plus_diagonal(A, diagonal):
     return A + np.diag(diagonal)
 
 
-def _certificate(problem, λ):
-    """y ≥ 0 with Aᵀ y ≤ 0 and y·(A lower + b) < 0, along which λ runs off; or None."""
-    if np.isinf(problem.lower).any() or np.isfinite(problem.upper).any():
+def _certificate(problem):
+    """y ≥ 0 with Aᵀ y ≤ 0 and y·(A lower + b) < 0, by linear programming, or None."""
+    if problem.n > _LARGEST or np.isinf(problem.lower).any() or np.isfinite(problem.upper).any():
         return None
-    y = λ - problem.lower
-    y = np.where(y > 1e-6 * y.max(), y / y.max(), 0.0)
-    scale = np.sqrt(problem.terms.d)
-    against, gain = (formed(problem.A).T @ y) / scale, float(y @ problem.w(problem.lower))
-    small = 1e-9 * np.abs(scale * y).max()
-    return y if against.max() <= small and gain < -1e-9 * np.abs(problem.terms.b).max() else None
+    d = np.sqrt(problem.terms.d)
+    A, b = formed(problem.A), problem.w(problem.lower) / d
+    A = scipy.sparse.csr_array(A) / d[:, None] / d
+    against = scipy.sparse.vstack([A.T, b[None] / np.abs(b).max()])
+    most = np.append(np.zeros(problem.n), -1.0)
+    found = scipy.optimize.linprog(np.ones(problem.n), A_ub=against, b_ub=most)
+    return found.x / d if found.status == 0 else None

@@ -10,6 +10,7 @@ from .operators import arrays, for_form
 from .problem import LCP, ConeProblem
 from .solution import MAX_ITERATIONS, SOLVED, UNSUITABLE, finish
 
+BLOWN_UP = 1e12  # times what the residual was at first: then a method has diverged
 _MOST = 10**8  # iterations: their history must fit into memory
 
 

@@ -97,7 +97,7 @@ def merit(terms, λ, w):
 def project_on_cone(μ, n, t1, t2):
     """The point of the cone {‖λ_t‖ ≤ μ λ_n} nearest to (n, t1, t2): three numbers."""
     t = np.hypot(t1, t2)
-    if t <= μ * n:
+    if n >= 0 and t <= μ * n:  # where μ = 0, t = 0 is no more than μ n for a negative n, too
         return n, t1, t2
     along = (n + μ * t) / (1 + μ * μ)
     if along <= 0:  # in the polar cone: nearest is the tip
@@ -116,7 +116,7 @@ def cone_gap(terms, λ, k, w_n, w_1, w_2):
         w_n = w_n + μ * np.hypot(w_1, w_2)
     x_n, x_1, x_2 = w_n / terms.d[k], w_1 / terms.d[k], w_2 / terms.d[k]
     n, t1, t2 = λ_n - x_n, λ_1 - x_1, λ_2 - x_2
-    if np.hypot(t1, t2) <= μ * n:
+    if n >= 0 and np.hypot(t1, t2) <= μ * n:
         return x_n, x_1, x_2  # inside: nothing is lost beside a big λ
     n, t1, t2 = project_on_cone(μ, n, t1, t2)
     return λ_n - n, λ_1 - t1, λ_2 - t2

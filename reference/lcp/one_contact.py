@@ -16,7 +16,8 @@ that bisection can't fail. For Coulomb's law these are 0 and ∞. There λ_t = 0
 < 0; at 0, where it would stick, λ is outside the cone, so G > 0. For the convex law the matrix is singular
 at one α₀; the root lies below α₀ if λ comes up to it from within the cone, else above.
 
-In the plane the second tangent is given a row of its own, which stays 0.
+What rounding leaves is 1e-16 times A's condition number. In the plane the second tangent is given a row of
+its own, which stays 0.
 
 Slides S10, S14; lectures/08_newton_lcp.md. Source: Bonnefon & Daviet, Quartic formulation of Coulomb 3D
 frictional contact, INRIA RT-0400 (2011), for the quartic; Daviet, Bertails-Descoubes & Boissieux, ACM TOG
@@ -45,16 +46,25 @@ def solve_contact(A, q_n, q_1, q_2, μ, coulomb):
     κ = 0.0 if coulomb else μ * μ
     block = (A[0, 0], a_1, a_2, s_1, s_2, q_n, p_1, p_2, μ, κ)
     G, whole, n, t_1, t_2 = surface(0.0, block)
-    if whole <= 0 or not (G <= 0 and n >= 0):
-        α = find_slip(block)
-        G, whole, n, t_1, t_2 = surface(α, block)
+    if whole > 0 and G <= 0 and n >= 0:
+        n, t_1, t_2 = refine(block, n / whole, t_1 / whole, t_2 / whole)
+    else:
+        _, whole, n, t_1, t_2 = surface(find_slip(block), block)
         n, t_1, t_2 = n / whole, t_1 / whole, t_2 / whole
         t = np.hypot(t_1, t_2)
         if t > 0 and n > 0:
             t_1, t_2 = t_1 * (μ * n / t), t_2 * (μ * n / t)
-    else:
-        n, t_1, t_2 = n / whole, t_1 / whole, t_2 / whole
     return n, c * t_1 - s * t_2, s * t_1 + c * t_2
+
+
+@compiled
+def refine(block, n, t_1, t_2):
+    """λ of sticking once more: what rounding has left of w is solved for again, and added."""
+    A_nn, a_1, a_2, s_1, s_2, q_n, p_1, p_2, μ, κ = block
+    w_n = A_nn * n + a_1 * t_1 + a_2 * t_2 + q_n
+    w_1, w_2 = a_1 * n + s_1 * t_1 + p_1, a_2 * n + s_2 * t_2 + p_2
+    _, whole, more, more_1, more_2 = surface(0.0, (A_nn, a_1, a_2, s_1, s_2, w_n, w_1, w_2, μ, κ))
+    return n + more / whole, t_1 + more_1 / whole, t_2 + more_2 / whole
 
 
 @compiled

@@ -68,7 +68,7 @@ def change_matrix(A, i, Δ, x):
     """x is λ itself, and has changed already."""
 
 
-@compiled
+@compiled(reorder=True)
 def row_matrix(A, i, λ, x):
     """Row i of A λ."""
     now = 0.0

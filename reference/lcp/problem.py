@@ -45,6 +45,8 @@ class _Problem:
             return np.inf
         return relative(self._merit(λ, w), self.scale)
 
+    hopeless = ()
+
     @cached_property
     def scale(self):
         """The merit of λ⁰, by which every other is divided; inf where the numbers are too large for that."""
@@ -87,6 +89,17 @@ class LCP(_Problem):
         _, _, low, high, normal, μ = self.terms
         most = μ * np.maximum(np.asarray(λ, dtype=float)[normal], 0) if self.n else μ
         return np.where(normal >= 0, -most, low), np.where(normal >= 0, most, high)
+
+    @cached_property
+    def hopeless(self):
+        """A row of zeros in A whose w_i = b_i has a sign that no λ_i makes right, as an array (0 or 1,).
+
+        There the residual has no unit to measure with, and would call it small beside large λ.
+        """
+        low, high = self.terms.lower, self.terms.upper
+        rows = np.flatnonzero(((self.b < 0) & (high == np.inf)) | ((self.b > 0) & (low == -np.inf)))
+        rows = rows[self.terms.normal[rows] < 0]
+        return rows[row_peaks(self.A, rows) == 0][:1] if len(rows) else rows
 
     def __repr__(self):
         return f"LCP of {self.n} rows, A {form(self.A)}{', with friction bounds' * self.has_friction}"

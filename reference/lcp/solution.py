@@ -66,8 +66,9 @@ def finish(
     """The Solution that λ (n,) is, measured afresh from the problem.
 
     code: what the method believes, a word of ``STATUSES`` or its number. It stands unless λ says otherwise:
-    λ is "solved" if and only if its residual is at most the tolerance. reason: a sentence in place of the
-    usual one, for that status only. history (iterations + 1,): residuals, of which the last is measured anew.
+    λ is "solved" if and only if its residual is at most the tolerance, and no row of zeros forbids it.
+    reason: a sentence in place of the usual one, for that status only.
+    history (iterations + 1,): residuals, of which the last is measured anew.
     """
     believed = code if isinstance(code, str) else STATUSES[code]
     inputs.choice("code", believed, STATUSES)
@@ -80,7 +81,11 @@ def finish(
     history = np.array(history, dtype=float)
     history[-1] = residual
     status, words = believed, reason or _REASONS[believed]
-    if residual <= tolerance:
+    if residual <= tolerance and len(problem.hopeless):
+        i = int(problem.hopeless[0])
+        status, certificate = "infeasible", np.sign(-problem.b[i]) * (np.arange(problem.n) == i)
+        words = f"row {i} of A is 0, so w_{i} = {problem.b[i]:.3g} whatever λ is, and no λ_{i} fits that"
+    elif residual <= tolerance:
         status, certificate = "solved", None
         words = reason if reason and believed == "solved" else _REASONS["solved"]
     elif believed == "solved":

@@ -9,7 +9,7 @@ Slides S8, S9; lectures/04_embedding.md.
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..compiled import compiled_apart
+from ..compiled import lean_apart
 from . import cholesky, minimum_norm, sparse, tree
 from .factor import Factor
 
@@ -29,11 +29,11 @@ MULTIPLIERS = {
     "cholesky": Multipliers(CHOLESKY, cholesky.prepare, "few joints"),
     "sparse": Multipliers(SPARSE, sparse.prepare, "many joints, each body with few of them; loops allowed"),
     "tree": Multipliers(TREE, tree.prepare, "joints without loops, a body with many of them too"),
-    "minimum_norm": Multipliers(MINIMUM_NORM, minimum_norm.prepare, "redundant joints"),
+    "minimum_norm": Multipliers(MINIMUM_NORM, minimum_norm.prepare, "redundant joints, singular positions"),
 }
 
 
-@compiled_apart
+@lean_apart
 def factorise(solver, m, factor, J, B, mass, inertia, frame):
     """Make ready to solve for m rows J (m, 2, k), B = J M⁻¹; frame: see ``rows``; solver: a number.
 
@@ -49,7 +49,7 @@ def factorise(solver, m, factor, J, B, mass, inertia, frame):
     return minimum_norm.factorise(m, factor, J, B)
 
 
-@compiled_apart
+@lean_apart
 def substitute(solver, m, factor, J, mass, right, λ):
     """λ (m,) of A λ = right (m,), after ``factorise``."""
     if solver == TREE:

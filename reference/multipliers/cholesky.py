@@ -5,7 +5,7 @@ Slides S8, S9; lectures/04_embedding.md. Source: Golub & Van Loan, Matrix Comput
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import lean_apart, merged
 from .factor import SINGULAR, assemble, make_factor, meeting_rows
 
 
@@ -15,14 +15,14 @@ def prepare(rows, system):
     return make_factor(meeting_rows(rows, lambda p, q: p * m + q), values=m * m)
 
 
-@compiled
+@merged
 def factorise(m, factor, J, B):
     """A = L Lᵀ. Returns the smallest pivot relative to A's diagonal."""
     assemble(factor.meeting, J, B, factor.values)
     return cholesky(factor.values, 0, m)
 
 
-@compiled
+@merged
 def substitute(m, factor, right, λ):
     """λ of A λ = right, after ``factorise``."""
     for p in range(m):
@@ -30,7 +30,7 @@ def substitute(m, factor, right, λ):
     solve_cholesky(factor.values, 0, m, λ, 0)
 
 
-@compiled
+@lean_apart
 def cholesky(L, at, m):
     """L in place of a symmetric matrix's lower triangle, which starts at ``at`` in a flat array, row by row.
 
@@ -56,7 +56,7 @@ def cholesky(L, at, m):
     return smallest
 
 
-@compiled
+@lean_apart
 def solve_cholesky(L, at, m, x, first):
     """x ← (L Lᵀ)⁻¹ x, for the m numbers from ``first`` on: down with L, up with Lᵀ; see ``cholesky``."""
     for p in range(m):

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import lean
 
 SINGULAR = 1e-14  # a pivot, over what was there before the elimination, that is rounding
 
@@ -51,7 +51,7 @@ def meeting_rows(rows, place):
     ]
 
 
-@compiled
+@lean
 def assemble(meeting, J, B, values):
     """The entries of A = B Jᵀ on and below its diagonal, added up in ``values``.
 

@@ -16,11 +16,14 @@ and 5.5; Higham, Accuracy and Stability of Numerical Algorithms (2002), section 
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import merged
 from .cholesky import cholesky, solve_cholesky
 from .factor import assemble, make_factor, meeting_rows
 
-DEPENDENT = 1e-11  # a pivot, over what was there before the elimination, below which a row is a sum of others
+# A pivot, over what was there before the elimination, below which a row is a sum of others. It is a square:
+# 1e-3 of a row's length. Within a step the joints stand open by something of Δt², and redundant rows then
+# differ by as much; taken for independent, they would lock a mechanism that moves, such as Bricard's.
+DEPENDENT = 1e-6
 
 
 def prepare(rows, system):
@@ -31,7 +34,7 @@ def prepare(rows, system):
     )
 
 
-@compiled
+@merged
 def factorise(m, factor, J, B):
     """The independent rows, L, W, and L of 1 + Wᵀ W. Returns the smallest pivot of the rows taken."""
     values, order = factor.values, factor.pattern
@@ -56,7 +59,7 @@ def factorise(m, factor, J, B):
     return smallest
 
 
-@compiled
+@merged
 def pivoted_cholesky(m, A, order, diagonal):
     """L of the rows in the order chosen, in place; their number r in order[m]; the diagonal is kept too."""
     for p in range(m):
@@ -88,7 +91,7 @@ def pivoted_cholesky(m, A, order, diagonal):
     return smallest
 
 
-@compiled
+@merged
 def swap(m, A, order, diagonal, p, q):
     """Change the places of rows and columns p and q."""
     order[p, 0], order[q, 0] = order[q, 0], order[p, 0]
@@ -99,7 +102,7 @@ def swap(m, A, order, diagonal, p, q):
         A[c * m + p], A[c * m + q] = A[c * m + q], A[c * m + p]
 
 
-@compiled
+@merged
 def substitute(m, factor, right, λ):
     """The shortest λ with A λ = right, after ``factorise``."""
     values, order = factor.values, factor.pattern

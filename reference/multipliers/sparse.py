@@ -12,7 +12,7 @@ import heapq
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import merged
 from .factor import SINGULAR, assemble, make_factor, meeting_rows
 
 
@@ -77,7 +77,7 @@ def minimum_degree(m, meeting):
     return order, below
 
 
-@compiled
+@merged
 def factorise(m, factor, J, B):
     """A = L D Lᵀ. Returns the smallest pivot relative to A's diagonal."""
     values, pattern, links = factor.values, factor.pattern, factor.links
@@ -98,7 +98,7 @@ def factorise(m, factor, J, B):
     return smallest
 
 
-@compiled
+@merged
 def substitute(m, factor, right, λ):
     """λ of A λ = right, after ``factorise``: down with L, times D⁻¹, up with Lᵀ."""
     values, pattern, links = factor.values, factor.pattern, factor.links

@@ -15,7 +15,7 @@ SIGGRAPH 1996; Featherstone, Rigid Body Dynamics Algorithms (2008), chapter 7 (t
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import lean, merged
 from .cholesky import cholesky, solve_cholesky
 from .factor import make_factor
 
@@ -67,7 +67,7 @@ def links_of_tree(rows, M):
     return links[::-1]
 
 
-@compiled
+@merged
 def places(factor, M, k):
     """Where in values G, S, P, g, δu, s and the vector start."""
     n = len(factor.links)
@@ -77,7 +77,7 @@ def places(factor, M, k):
     return G, S, P, g, δu, s, s + n * k
 
 
-@compiled
+@merged
 def factorise(factor, J, mass, inertia, frame):
     """Articulated inertias, from the leaves to the roots. Returns the smallest pivot, as ``cholesky``."""
     values, links = factor.values, factor.links
@@ -95,7 +95,7 @@ def factorise(factor, J, mass, inertia, frame):
             solve_cholesky(values, H, k, values, G + a * k)
         for a in range(n):
             for b in range(a + 1):
-                values[S + a * n + b] = inner(J, first + a, side, values, G + b * k)
+                values[S + a * n + b] = row_part_times(J, first + a, side, values, G + b * k)
         ratio = cholesky(values, S, n)
         smallest = ratio if not ratio >= smallest else smallest
         if p < 0:
@@ -113,7 +113,7 @@ def factorise(factor, J, mass, inertia, frame):
     return smallest
 
 
-@compiled
+@merged
 def fill_inertias(mass, inertia, frame, H, k):
     """H = M of each body: mass, and R I Rᵀ; 1 for the turning of points, which have none."""
     d = 2 if k == 3 else 3
@@ -136,7 +136,7 @@ def fill_inertias(mass, inertia, frame, H, k):
                 H[at + (3 + a) * 6 + 3 + b] = total
 
 
-@compiled
+@merged
 def substitute(M, factor, J, right, λ):
     """λ of A λ = right, after ``factorise``: forces up to the roots, motion down to the leaves."""
     values, links = factor.values, factor.links
@@ -159,7 +159,7 @@ def substitute(M, factor, J, right, λ):
         c, p, side, first, n = links[link, 0], links[link, 1], links[link, 2], links[link, 3], links[link, 4]
         G, s, δu = G0 + link * k * k, s0 + link * k, δu0 + c * k
         for a in range(n if p >= 0 else 0):
-            values[s + a] -= inner(J, first + a, 1 - side, values, δu0 + p * k)
+            values[s + a] -= row_part_times(J, first + a, 1 - side, values, δu0 + p * k)
         solve_cholesky(values, S0 + link * k * k, n, values, s)
         for x in range(k):
             values[δu + x] = values[g0 + c * k + x]
@@ -170,8 +170,8 @@ def substitute(M, factor, J, right, λ):
                 values[δu + x] += values[G + a * k + x] * values[s + a]
 
 
-@compiled
-def inner(J, row, side, values, at):
+@lean
+def row_part_times(J, row, side, values, at):
     """Row of J, its part for one body, times the numbers from ``at`` on."""
     total = 0.0
     for x in range(J.shape[2]):

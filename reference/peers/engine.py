@@ -18,6 +18,7 @@ from ..layout import Bodies
 from ..scene import Unsupported
 from ..simulators.simulate import count_steps
 from ..trajectory import BodyState, ContactHistory, Trajectory
+from .touching import Touching, solid_numbers
 
 
 class Between(NamedTuple):
@@ -69,13 +70,6 @@ class Engine:
             raise Unsupported(
                 f"{self.name} has {lacks}, but this scene has {scene.dimension} dimensions: use {other}"
             )
-        meeting = next(iter(scene.colliding_pairs()), None)
-        if meeting:
-            raise Unsupported(
-                f"this adapter passes no contact on to {self.name}, but bodies {meeting[0]} and {meeting[1]} "
-                "could touch: put them in one group, or call "
-                f"scene.pair({meeting[0]}, {meeting[1]}, collide=False)"
-            )
 
     def _checked(self, settings):
         valid = "; ".join(f"{name}: {_allowed(allowed)}" for name, (_, allowed) in self.settings.items())
@@ -109,7 +103,7 @@ class Peer:
 
     ``advance(duration)`` steps and reads nothing that the forces don't need, so its time is the engine's;
     ``state`` reads all bodies; ``run(duration)`` leaves a Trajectory. moving: the numbers of the bodies that
-    are not static.
+    are not static. touching: the contacts, read only by ``run``; None where nothing can touch.
     """
 
     def __init__(self, engine, scene, dt, settings):
@@ -118,6 +112,7 @@ class Peer:
         self.settings = {"engine": engine.name, "version": engine.version, "dt": dt, **settings}
         self.bodies, self.steps = Bodies(scene), 0
         self.moving = [i for i, body in enumerate(scene.bodies) if not body.static]
+        self.touching = Touching(scene.dimension) if solid_numbers(scene) else None
 
     @property
     def time(self):
@@ -140,13 +135,21 @@ class Peer:
         """Step for ``duration``, a whole number of dt."""
         self._take(count_steps(duration, self.dt))
 
-    def run(self, duration, record_every=1):
-        """Step for ``duration``, recording every so many steps and at the end: a Trajectory."""
+    def run(self, duration, record_every=1, record_contacts=True):
+        """Step for ``duration``, recording every so many steps and at the end: a Trajectory.
+
+        record_contacts: reading them takes longer than stepping.
+        """
         steps, every = count_steps(duration, self.dt), inputs.whole("record_every", record_every, least=1)
         done = np.append(np.arange(0, steps, every), steps)
         states = [self.state]
+        watched = self.touching is not None and bool(record_contacts)
+        if watched:
+            self.watch()
         for count in np.diff(done):
             self._take(int(count))
+            if watched:
+                self.touching.close()
             states.append(self.state)
             if not all(np.isfinite(array).all() for array in _arrays(states[-1])):
                 states.pop()
@@ -158,7 +161,9 @@ class Peer:
             self.bodies,
             time,
             *(np.array(history) for history in zip(*map(_arrays, states), strict=True)),
-            contacts=ContactHistory.empty(kept, self.scene.dimension),
+            contacts=self.touching.history(kept)
+            if watched
+            else ContactHistory.empty(kept, self.scene.dimension),
             status="ok" if whole else "diverged",
             reason="" if whole else stopped,
             residual=np.zeros(kept),
@@ -173,6 +178,10 @@ class Peer:
     def step(self, steps):
         """Take so many steps of dt, each of ``substeps`` of the engine's own; the adapter's loop."""
         raise TypeError("an adapter must define step(steps)")
+
+    def watch(self):
+        """From now on, ``step`` adds its contacts to ``touching``."""
+        self.touching.on = True
 
     def read(self):
         """The moving bodies, each as (position, orientation, velocity, angular velocity)."""

@@ -38,7 +38,7 @@ public source (btMultiBody, read) has the explicit term and that damping. The te
 
 **Joints**: see ``pybullet_tree`` for multibodies and ``pybullet_joints`` for what closes a loop and for rigid
 bodies. Where they are constraints, the engine's sweeps end after ``iterations``, or before that once a sweep
-changes little (``residual``; 0: never).
+changes little (``residual``; 0: never). **Contact**: see ``pybullet_contact``.
 
 Slides S4, S5, S9, S18; lectures/02_equation_of_motion.md.
 """
@@ -50,20 +50,27 @@ import numpy as np
 
 from ..compiled import plain
 from ..joints import BallJoint
-from ..rotation import conjugate, multiply
+from ..rotation import conjugate, multiply, over_arrays
 from ..scene import Unsupported
 from .engine import Between, Engine, Peer
 from .forces import Forces
+from .pybullet_contact import Solid
 from .pybullet_joints import Constrainer
-from .pybullet_tree import add_tree, check_size, set_joints
+from .pybullet_tree import add_tree, check_size, set_joints, xyzw
 from .quiet import silence
 from .trees import trees
 
 _multiply, _conjugate = plain(multiply), plain(conjugate)
+CONTACT_WORDS = {  # a setting of this adapter, and pybullet's word for it
+    "contact_erp": "contactERP",
+    "friction_erp": "frictionERP",
+    "warm_start": "warmStartingFactor",
+    "rest_speed": "restitutionVelocityThreshold",
+}
 
 
 class PybulletPeer(Peer):
-    """A scene in space, in a pybullet client of its own, without shapes, since nothing can touch."""
+    """A scene in space, in a pybullet client of its own; without shapes where nothing can touch."""
 
     def __init__(self, engine, scene, dt, settings):
         with silence():
@@ -97,7 +104,12 @@ class PybulletPeer(Peer):
         self._check_spin(found)
         for tree in found:
             check_size(*tree)
-        made = [(add_tree(p, c, self.scene, tree, rigid, self.places), tree[1]) for tree in found]
+        self.solid = Solid(p, c, self.scene, self.touching) if self.touching else None
+        if self.solid:
+            self._check_branches(found)
+            self.solid.add_static(rigid)
+        shape = self.solid.shape if self.solid else None
+        made = [(add_tree(p, c, self.scene, tree, rigid, self.places, shape), tree[1]) for tree in found]
         p.stepSimulation(physicsClientId=c)  # brings a rigid body's inertia in the world up to date
         constrainer = Constrainer(p, c, self.scene, self.places, rigid)
         for joint in left:
@@ -105,22 +117,42 @@ class PybulletPeer(Peer):
         for (base, _), (number, branches) in zip(found, made, strict=True):
             if base is not None:
                 body = self.scene.bodies[base]
+                if self.solid:
+                    self._put_back(number, base)
                 speeds = body.velocity.tolist(), body.angular_velocity.tolist()
                 p.resetBaseVelocity(number, *speeds, physicsClientId=c)
             sprung = set_joints(p, c, self.scene, number, branches, self.places)
             self.sprung += [(number, link, joint) for link, joint in sprung]
+        if self.solid:
+            self.solid.settle(self.places)
         self.in_loop = self.forces.any() or bool(self.sprung)
-        self.calls = self.substeps if self.in_loop else 1  # of stepSimulation for each dt
+        self.calls = self.substeps if self.in_loop or self.solid else 1  # of stepSimulation for each dt
         p.setPhysicsEngineParameter(
             fixedTimeStep=self.dt / self.calls,
             numSubSteps=0 if self.calls == self.substeps else self.substeps,
             numSolverIterations=self.settings["iterations"],
             solverResidualThreshold=self.settings["residual"],
             erp=self.settings["erp"],
+            **{word: self.settings[name] for name, word in CONTACT_WORDS.items() if self.solid},
             physicsClientId=c,
         )
         p.setGravity(*self.scene.gravity.tolist(), physicsClientId=c)
         self._check_velocities()
+
+    def _check_branches(self, trees):
+        if any(branches for _, branches in trees):
+            raise Unsupported(
+                "this adapter gives the links of pybullet's trees no shapes: body='rigid' takes joints and "
+                "contact together"
+            )
+
+    def _put_back(self, number, i):
+        """To where the scene has it: what overlaps has been moved by the step at rest."""
+        body, axes = self.scene.bodies[i], np.array(self.places[i].axes)
+        turned = xyzw(over_arrays(multiply)(body.orientation, axes))
+        self.p.resetBasePositionAndOrientation(
+            number, body.position.tolist(), turned, physicsClientId=self.client
+        )
 
     def _check_velocities(self):
         """A tree's bodies can only start as its joints move them."""
@@ -136,14 +168,17 @@ class PybulletPeer(Peer):
     def step(self, steps):
         """A tight loop where the engine does everything itself; else forces are applied before each step."""
         step, c = self.p.stepSimulation, self.client
-        if not self.in_loop:
-            for _ in range(steps):
+        watched = self.touching is not None and self.touching.on
+        if not self.in_loop and not watched:
+            for _ in range(steps * self.calls):
                 step(c)
             return
         start, h = self.time, self.dt / self.calls
         for k in range(steps * self.calls):
             self._apply_forces(start + k * h)
             step(c)
+            if watched:
+                self.solid.read(h)
 
     def _apply_forces(self, t):
         p, c = self.p, self.client
@@ -197,6 +232,10 @@ PYBULLET = Engine(
         "iterations": (50, 1),
         "residual": (1e-7, Between(0.0, 1.0)),
         "erp": (0.2, Between(0.0, 1.0)),
+        "contact_erp": (0.2, Between(0.0, 1.0)),
+        "friction_erp": (0.2, Between(0.0, 1.0)),
+        "warm_start": (0.85, Between(0.0, 1.0)),
+        "rest_speed": (0.2, Between(0.0, 1e3)),
         "body": ("multibody", ("multibody", "rigid")),
     },
     "python -m pip install pybullet==3.2.7, which has wheels for Linux x86-64 with Python up to 3.11",

@@ -64,10 +64,11 @@ class Place(NamedTuple):
     axes: tuple
 
 
-def add_tree(p, client, scene, tree, rigid, places):
+def add_tree(p, client, scene, tree, rigid, places, shape=None):
     """Make a tree (base, branches), or a single body, in the engine, at rest; returns its number.
 
     ``places`` gets the Place of each of its bodies. rigid: bodies in maximal coordinates, without branches.
+    shape(i): the base's collision shape; None: it has none.
     """
     base, branches = tree
     bodies = [i for i in (base, *(branch.body for branch in branches)) if i is not None]
@@ -81,6 +82,7 @@ def add_tree(p, client, scene, tree, rigid, places):
         frame = body.position, over_arrays(multiply)(body.orientation, axes[base])
     number = p.createMultiBody(
         baseMass=0 if base is None else scene.bodies[base].mass,
+        baseCollisionShapeIndex=shape(base) if shape and base is not None else -1,
         basePosition=frame[0].tolist(),
         baseOrientation=xyzw(frame[1]),
         useMaximalCoordinates=rigid,

@@ -4,7 +4,7 @@
 
     x ← x + h v,  φ ← φ + h ω;    v ← damping^h v + h (g + f/m),  ω ← damping^h ω + h τ/I;
 
-then constraints (joints: see ``pymunk_joints``) and contact.
+then constraints (joints: see ``pymunk_joints``) and contact (see ``pymunk_contact``).
 
 All numbers are doubles. ``space.damping`` is 1 by default, no damping, and it is the factor that is left
 after one second. Bodies don't sleep by default. ``body.force`` and ``body.torque`` are used in the velocity
@@ -40,11 +40,12 @@ from ..scene import Unsupported
 from ..shapes import Point
 from .engine import Between, Engine, Peer
 from .forces import Forces
+from .pymunk_contact import Toucher
 from .pymunk_joints import Joiner
 
 
 class PymunkPeer(Peer):
-    """A planar scene in a ``pymunk.Space``. Nothing can touch, so the bodies need no shapes."""
+    """A planar scene in a ``pymunk.Space``. Where nothing can touch, the bodies have no shapes."""
 
     def __init__(self, engine, scene, dt, settings):
         import pymunk
@@ -53,6 +54,7 @@ class PymunkPeer(Peer):
         self.space = pymunk.Space()
         self.space.gravity = tuple(scene.gravity.tolist())
         self.space.iterations = settings["iterations"]
+        self.space.collision_slop, self.space.collision_bias = settings["slop"], settings["collision_bias"]
         self.in_engine = {i: self._body(pymunk, scene.bodies[i]) for i in self.moving}
         self.space.add(*self.in_engine.values())
         by_engine = settings["springs"] == "engine"
@@ -62,6 +64,8 @@ class PymunkPeer(Peer):
         for constraint in (made for joint in scene.joints for made in joiner.made(joint)):
             constraint.error_bias = settings["error_bias"]
             self.space.add(constraint)
+        if self.touching:
+            self.toucher = Toucher(pymunk, scene, self.space, self.in_engine, self.touching)
         drags = {i: law for i, law in scene.drags.items() if i in self.in_engine}
         if settings["drag"] == "engine" and drags:
             self.space.damping = math.exp(-self._common_rate(drags))
@@ -105,14 +109,22 @@ class PymunkPeer(Peer):
     def step(self, steps):
         """A tight loop where the engine does everything itself; else forces are set before each step."""
         h, step = self.dt / self.substeps, self.space.step
-        if not self.forces.any():
+        watched = self.touching is not None and self.touching.on
+        if not self.forces.any() and not watched:
             for _ in range(steps * self.substeps):
                 step(h)
             return
         start = self.time
         for k in range(steps * self.substeps):
-            self._set_forces(start + (k + 1) * h, h)
+            if self.forces.any():
+                self._set_forces(start + (k + 1) * h, h)
             step(h)
+            if watched:
+                self.touching.next_step()
+
+    def watch(self):
+        """From now on contacts are read."""
+        self.toucher.watch()
 
     def _set_forces(self, t, h):
         """Forces where the next step of h, which ends at t, will have moved the bodies to."""
@@ -150,6 +162,8 @@ PYMUNK = Engine(
         "substeps": (1, 1),
         "iterations": (10, 1),
         "error_bias": (0.9**60, Between(0.0, 1.0)),
+        "slop": (0.1, Between(0.0, 1.0)),
+        "collision_bias": (0.9**60, Between(0.0, 1.0)),
         "springs": ("engine", ("engine", "force")),
         "drag": ("force", ("engine", "force")),
     },

@@ -1,6 +1,6 @@
 """The trees that the joints of a scene make: who hangs on whom, and which joints close a loop.
 
-Slides S3, S5; lectures/04_embedding.md.
+Slides S3, S5, S9; lectures/04_embedding.md.
 """
 
 from typing import NamedTuple

@@ -17,7 +17,7 @@ Slides S5–S7; lectures/03_jacobian.md.
 """
 
 from ..bodies import planar
-from ..compiled import compiled
+from ..compiled import lean_apart
 from .arrays import Jacobian, Rows, make_jacobian
 from .both_ways import add_row, add_rows, dense, row_times
 from .frames import fill_frames
@@ -27,7 +27,7 @@ from .space import fill_rows_in_space
 __all__ = ["Jacobian", "Rows", "add_row", "add_rows", "dense", "fill_rows", "make_jacobian", "row_times"]
 
 
-@compiled
+@lean_apart
 def fill_rows(rows, state, out):
     """φ, J and J̇ u of all rows, for this state: fills a ``Jacobian`` made for these rows."""
     fill_frames(state, out.frame)

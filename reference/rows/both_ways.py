@@ -7,10 +7,10 @@ Slide S7; lectures/03_jacobian.md.
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import lean
 
 
-@compiled
+@lean
 def row_times(J, bodies, k, v, ω):
     """Row k of J u, from velocities to the constraint (S7); u given as v (M, d) and ω (r, 3) or (r, 1)."""
     d = v.shape[1]
@@ -26,7 +26,7 @@ def row_times(J, bodies, k, v, ω):
     return w
 
 
-@compiled
+@lean
 def add_row(J, bodies, k, λ, f, τ):
     """Add row k's part of Jᵀ λ, from the constraint back to the bodies (S7); λ a number."""
     d = f.shape[1]
@@ -40,7 +40,7 @@ def add_row(J, bodies, k, λ, f, τ):
                     τ[i, c] += J[k, side, d + c] * λ
 
 
-@compiled
+@lean
 def add_rows(J, bodies, λ, f, τ):
     """Jᵀ λ added to f (M, d) and τ (r, 3) or (r, 1). With B for J: M⁻¹ Jᵀ λ added to velocities."""
     for k in range(len(λ)):

@@ -6,11 +6,11 @@ Slides S5, S6; lectures/03_jacobian.md.
 import numpy as np
 
 from ..bodies import planar
-from ..compiled import compiled
+from ..compiled import lean, merged
 from ..rotation import quaternion
 
 
-@compiled
+@merged
 def fill_frames(state, frame):
     """The rotation matrix of each body, row by row (r, 9); in the plane its cosine and sine (r, 2)."""
     for i in range(len(frame)):
@@ -35,7 +35,7 @@ def fill_frames(state, frame):
         )
 
 
-@compiled
+@lean
 def turned(frame, i, a):
     """The vector a, fixed to body i, in the world frame; a itself for the world and for points."""
     if i < 0 or i >= len(frame):
@@ -47,7 +47,7 @@ def turned(frame, i, a):
     )
 
 
-@compiled
+@lean
 def turned_in_plane(frame, i, a):
     """The same in the plane."""
     if i < 0 or i >= len(frame):

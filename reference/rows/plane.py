@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import lean, merged
 from ..joints import DISTANCE, LINEAR
 from .frames import turned_in_plane
 
@@ -25,7 +25,7 @@ class Ends(NamedTuple):
     ω_i: float
 
 
-@compiled
+@merged
 def fill_rows_in_plane(rows, state, out):
     """φ, J and J̇ u of all rows; the frames must have been filled in."""
     kind, bodies, joint, p, e = rows.kind, rows.bodies, rows.joint, rows.p, rows.e
@@ -46,7 +46,7 @@ def fill_rows_in_plane(rows, state, out):
         φ[k] -= rows.target[k]
 
 
-@compiled
+@merged
 def ends_in_plane(x, v, ω, frame, i, j, a_i, a_j):
     """The ``Ends`` of a joint between i and j, at the point a_i of i and a_j of j, in their own frames."""
     r_i, p_i, v_i, ω_i = point(x, v, ω, frame, i, a_i)
@@ -56,7 +56,7 @@ def ends_in_plane(x, v, ω, frame, i, j, a_i, a_j):
     return Ends(r_i, r_j, Δ, Δv, (ii * r_i[0] - jj * r_j[0], ii * r_i[1] - jj * r_j[1]), ω_i)
 
 
-@compiled
+@lean
 def point(x, v, ω, frame, i, a):
     """Arm, position and velocity of the point a of body i, and its ω; i = −1: the world, at rest."""
     if i < 0:
@@ -67,7 +67,7 @@ def point(x, v, ω, frame, i, a):
     return r, (x[i, 0] + r[0], x[i, 1] + r[1]), (v[i, 0] - spin * r[1], v[i, 1] + spin * r[0]), spin
 
 
-@compiled
+@merged
 def fill_linear(ends, e, k, φ, J, rate):
     """φ = e·Δ, with e turning with i: ė = ω_i × e."""
     r_i, Δ, Δv, ω_i = ends.r_i, ends.Δ, ends.Δv, ends.ω_i
@@ -76,7 +76,7 @@ def fill_linear(ends, e, k, φ, J, rate):
     put(J, k, e, moment((r_i[0] + Δ[0], r_i[1] + Δ[1]), e), moment(ends.r_j, e))
 
 
-@compiled
+@merged
 def fill_distance(ends, k, φ, J, rate):
     """φ = |Δ|, along n = Δ/|Δ|; where the points coincide there is no direction, and n = 0."""
     Δ = ends.Δ
@@ -88,19 +88,19 @@ def fill_distance(ends, k, φ, J, rate):
     put(J, k, n, moment(ends.r_i, n), moment(ends.r_j, n))
 
 
-@compiled
+@lean
 def moment(r, e):
     """r × e, a number."""
     return r[0] * e[1] - r[1] * e[0]
 
 
-@compiled
+@lean
 def angle(q, i):
     """The angle of body i; 0 for the world and for points."""
     return q[i, 0] if 0 <= i < len(q) else 0.0
 
 
-@compiled
+@lean
 def put(J, k, e, moment_i, moment_j):
     """Row k of J: −(e, r_i × e) for body i and (e, r_j × e) for body j (S5)."""
     J[k, 0, 0], J[k, 0, 1], J[k, 0, 2] = -e[0], -e[1], -moment_i

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import lean, merged
 from ..joints import ANGULAR, DISTANCE, LINEAR
 from ..rotation import cross, dot, minus, plus, vector
 from .frames import turned
@@ -28,7 +28,7 @@ class Ends(NamedTuple):
     ω_j: tuple
 
 
-@compiled
+@merged
 def fill_rows_in_space(rows, state, out):
     """φ, J and J̇ u of all rows; the frames must have been filled in."""
     kind, bodies, joint, p, e, e2, c = rows.kind, rows.bodies, rows.joint, rows.p, rows.e, rows.e2, rows.c
@@ -50,7 +50,7 @@ def fill_rows_in_space(rows, state, out):
         φ[k] -= rows.target[k]
 
 
-@compiled
+@merged
 def ends_in_space(x, v, ω, frame, i, j, a_i, a_j):
     """The ``Ends`` of a joint between i and j, at the point a_i of i and a_j of j, in their own frames."""
     r_i, p_i, v_i, ω_i = point(x, v, ω, frame, i, a_i)
@@ -59,7 +59,7 @@ def ends_in_space(x, v, ω, frame, i, j, a_i, a_j):
     return Ends(r_i, r_j, minus(p_j, p_i), minus(v_j, v_i), inward, ω_i, ω_j)
 
 
-@compiled
+@lean
 def point(x, v, ω, frame, i, a):
     """Arm, position and velocity of the point a of body i, and its ω; i = −1: the world, at rest."""
     still = (0.0, 0.0, 0.0)
@@ -71,7 +71,7 @@ def point(x, v, ω, frame, i, a):
     return r, plus(vector(x, i), r), plus(vector(v, i), cross(spin, r)), spin
 
 
-@compiled
+@merged
 def fill_linear(ends, e, k, φ, J, rate):
     """φ = e·Δ, with e turning with i: ė = ω_i × e."""
     ė = cross(ends.ω_i, e)
@@ -80,7 +80,7 @@ def fill_linear(ends, e, k, φ, J, rate):
     put(J, k, e, cross(plus(ends.r_i, ends.Δ), e), cross(ends.r_j, e))
 
 
-@compiled
+@merged
 def fill_distance(ends, k, φ, J, rate):
     """φ = |Δ|, along n = Δ/|Δ|; where the points coincide there is no direction, and n = 0."""
     Δ, Δv = ends.Δ, ends.Δv
@@ -92,7 +92,7 @@ def fill_distance(ends, k, φ, J, rate):
     put(J, k, n, cross(ends.r_i, n), cross(ends.r_j, n))
 
 
-@compiled
+@merged
 def fill_angular(ends, a, c, k, φ, J, rate):
     """φ = a·c, with ȧ = ω_i × a and ċ = ω_j × c."""
     ȧ, ċ = cross(ends.ω_i, a), cross(ends.ω_j, c)
@@ -101,7 +101,7 @@ def fill_angular(ends, a, c, k, φ, J, rate):
     put_turning(J, k, cross(c, a))
 
 
-@compiled
+@merged
 def fill_turn(ends, e1, e2, c, k, φ, J, rate):
     """φ: the angle from e1 to c about e3 = e1 × e2, from −π to π. J̇ u = ė3·(ω_j − ω_i)."""
     e3 = cross(e1, e2)
@@ -110,7 +110,7 @@ def fill_turn(ends, e1, e2, c, k, φ, J, rate):
     put_turning(J, k, e3)
 
 
-@compiled
+@lean
 def put(J, k, e, moment_i, moment_j):
     """Row k of J: −(e, r_i × e) for body i and (e, r_j × e) for body j (S5)."""
     J[k, 0, 0], J[k, 0, 1], J[k, 0, 2] = -e[0], -e[1], -e[2]
@@ -119,7 +119,7 @@ def put(J, k, e, moment_i, moment_j):
     J[k, 1, 3], J[k, 1, 4], J[k, 1, 5] = moment_j
 
 
-@compiled
+@lean
 def put_turning(J, k, axis):
     """Row k of J: −axis for the ω of body i, axis for that of body j; nothing for v (S5)."""
     put(J, k, (0.0, 0.0, 0.0), axis, axis)

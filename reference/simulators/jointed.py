@@ -9,9 +9,14 @@ from ..choice import choose_solver
 from ..joints import DISTANCE, LINEAR
 from ..mechanism import make_mechanism, rigid_rows, soft_rows
 from ..multipliers import MULTIPLIERS
+from ..trajectory import Trajectory
 
 NEAR = 1e-5  # a pivot, over what was there before the elimination: dependent rows are not far
 CHANGED = 1e-9  # relative change of the state at the start that is told
+JUMP = 1e-4  # of the energy that moves: a change between two records for which there is no cause
+RARE = 20  # times the usual change between two records; what an integrator errs by is not as rare
+MANY = 10  # records; with fewer of them nothing is usual, and a change must be this share of the energy:
+UNSEEN = 1e-2
 
 
 class Joints:
@@ -29,7 +34,9 @@ class Joints:
         factor = method.prepare(rigid, bodies.system)
         self.mechanism = make_mechanism(bodies, rigid, soft, method.number, factor)
         self.system = bodies.system._replace(mechanism=self.mechanism, velocity_dependent=True)
-        self.changed = ""
+        self.changed, self.jump = "", ""
+        rows = self.mechanism.rows  # a motor, a damper, drag and the user's forces change the energy
+        self.keeps_energy = not (bodies.system.velocity_dependent or rows.speed.any() or rows.damping.any())
 
     @property
     def rows(self):
@@ -66,8 +73,41 @@ class Joints:
             else ""
         )
 
+    @property
+    def near(self):
+        """Whether loops have come near a singular position."""
+        smallest, least, most, _ = self.mechanism.watch
+        return self.choice.loops and (smallest < NEAR or most > least)
+
+    def last_credible(self, records):
+        """The last of the records y (T, size) that can be believed: T − 1, or the one before energy jumps.
+
+        In a singular position a mechanism can go on in more than one way. Near it a step can come to another
+        of them, or be thrown off; what tells is energy that changed where nothing could have changed it.
+        """
+        if not (self.near and self.keeps_energy):
+            return len(records) - 1
+        motion = Trajectory(self.bodies, np.arange(len(records)), *self.bodies.unpack(records), contacts=None)
+        energy = motion.energy()
+        most = (np.square(motion.velocity).sum(axis=2) @ self.bodies.mass / 2).max()
+        change = np.abs(np.diff(energy))
+        many = len(change) >= MANY  # to tell from them what is usual
+        jumps = np.flatnonzero(
+            change > (max(JUMP * most, RARE * np.median(change)) if many else UNSEEN * most)
+        )
+        if not jumps.size:
+            return len(records) - 1
+        self.jump = (
+            f"energy changed by {energy[jumps[0] + 1] - energy[jumps[0]]:.2g} J, though nothing in the scene "
+            "could change it, near a singular position of the joints, from where more than one motion is "
+            "possible, in"
+        )
+        return int(jumps[0])
+
     def failure(self):
         """(status, reason) of a run that ended, or None, where the joints are not what ended it."""
+        if self.jump:
+            return "singular", self.jump
         smallest, gap = self.mechanism.watch[0], self.mechanism.watch[3]
         if smallest <= 1e-14:
             return (
@@ -90,7 +130,7 @@ class Joints:
                 "the joints' forces are not: λ is the one with the smallest sum of squares in the rows' own "
                 "frames, which adds up N and N m as if they were one"
             )
-        if self.choice.loops and (smallest < NEAR or most > least):
+        if self.near:
             said.append(
                 f"the joints came near a singular position (smallest pivot {smallest:.1g}), from where more "
                 "than one motion may be possible"

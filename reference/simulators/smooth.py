@@ -11,7 +11,7 @@ Slides S4, S9; lectures/02_equation_of_motion.md.
 
 import numpy as np
 
-from ..compiled import bind, compiled
+from ..compiled import bind, lean, merged
 from ..correction import project
 from ..embedding import constrained_force
 from ..forces import external_force, with_user_forces
@@ -22,8 +22,8 @@ from .jointed import Joints
 TORN = 1e-6  # of the mechanism's size: a joint error that no projection could mend; the run stops
 
 
-@compiled
-def run(step, system, state, origin, first, h, steps, every, max_iterations, tolerance, record, solves):
+@lean
+def run(step, system, state, work, origin, first, h, steps, every, record, solves):
     """Do so many steps of h; the time is ``origin`` + h · (steps done before, ``first``, and since).
 
     Every so many steps, and after the last, y goes into a row of record (rows, size of y), and the iterations
@@ -31,24 +31,24 @@ def run(step, system, state, origin, first, h, steps, every, max_iterations, tol
     record. Returns how many steps were done: fewer than ``steps`` if the next would not have been finite;
     the state is then the last that was.
     """
-    work = make_work(len(state.x), len(state.q), state.x.shape[1], max_iterations, tolerance)
-    before = state.y.copy()
+    copy(state.y, work.before)
+    work.solve[:] = 0
     row = 0
     for done in range(steps):
         step(system, origin + (first + done) * h, h, state, work)
         if not all_finite(state.y):
-            copy(before, state.y)
+            copy(work.before, state.y)
             return done
-        copy(state.y, before)
+        copy(state.y, work.before)
         if len(record) > 0 and ((done + 1) % every == 0 or done + 1 == steps):
-            record[row] = state.y
-            solves[row] = work.solve
+            copy(state.y, record[row])
+            copy(work.solve, solves[row])
             work.solve[:] = 0
             row += 1
     return steps
 
 
-@compiled
+@merged
 def all_finite(y):
     """Whether no entry is inf or nan."""
     total = 0.0
@@ -57,7 +57,7 @@ def all_finite(y):
     return total == 0
 
 
-@compiled
+@merged
 def jointed_step(step, system, t, h, state, work):
     """A step of S9 with joints: constraint forces, velocities and positions; then what drifted is put back.
 
@@ -78,7 +78,9 @@ class Smooth:
     def __init__(self, scene, bodies, settings):
         user_forces = scene.user_forces
         self.bodies, self.state = bodies, bodies.state()
-        self.limits = settings.iterations, settings.tolerance
+        self.work = make_work(
+            len(self.state.x), len(self.state.q), bodies.dimension, settings.iterations, settings.tolerance
+        )
         self.nothing = np.empty((0, self.state.y.size)), np.empty((0, 2))
         method, self.system, self.joints = INTEGRATORS[settings.integrator], bodies.system, None
         force = external_force
@@ -96,7 +98,17 @@ class Smooth:
         """So many steps of h; see ``run``."""
         if record is None:
             record, solves = self.nothing
-        return self.run(self.system, self.state, origin, first, h, steps, every, *self.limits, record, solves)
+        start = self.state.y.copy()
+        done = self.run(self.system, self.state, self.work, origin, first, h, steps, every, record, solves)
+        if not (self.joints and self.joints.near and done):
+            return done
+        kept = record[: len(record) if done == steps else done // every]
+        states = np.concatenate([start[None], kept if len(record) else self.state.y[None]])
+        last = self.joints.last_credible(states)
+        if last == len(states) - 1:
+            return done
+        self.state.y[:] = states[last]
+        return last * every
 
     def public_state(self, t, state):
         """The State as a ``BodyState`` of all bodies."""
@@ -116,7 +128,7 @@ class Smooth:
         The second one finds the joints closed, and so has J for the velocities where they are.
         """
         before = self.state.y.copy()
-        if self.advance(0.0, 0, 0.0, 2) < 2:
+        if self.run(self.system, self.state, self.work, 0.0, 0, 0.0, 2, 1, *self.nothing) < 2:
             self.joints.refuse_start()
         self.joints.compare_start(before, self.state)
 

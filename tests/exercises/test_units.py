@@ -26,7 +26,7 @@ from exercises.grader.student import StudentProcess
 from exercises.grader.worker import Worker
 from tests.exercises.exercise_support import UNITS, Submission
 
-SEEDS_FAST, SEEDS_ALL = range(6), range(200)
+SEEDS_FAST, SEEDS_MORE, SEEDS_ALL = range(6), range(60), range(200)
 MARGIN = 10  # right solutions stay this factor below each tolerance, mistakes above it
 
 each_unit = pytest.mark.parametrize("unit", UNITS, ids=lambda unit: unit.slug)
@@ -211,6 +211,12 @@ def test_tolerances_stand_clear_of_right_and_wrong(unit):
 
 
 @pytest.mark.slow
+@each_unit
+def test_tolerances_stand_clear_of_right_and_wrong_over_60_seeds(unit):
+    require_margins(unit, SEEDS_MORE)
+
+
+@pytest.mark.study
 @each_unit
 def test_tolerances_stand_clear_of_right_and_wrong_over_200_seeds(unit):
     require_margins(unit, SEEDS_ALL)

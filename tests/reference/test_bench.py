@@ -5,7 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from reference import bench, bench_growth, bench_methods, bench_report
+from reference import bench, bench_growth, bench_lcp, bench_methods, bench_report
+from reference.bench_contact import CONTACTS, ContactContest
 from reference.bench_contests import CONTESTS, Contest
 from reference.peers import ENGINES
 
@@ -70,7 +71,8 @@ def test_missing_engine_is_said_and_left_out(tmp_path, capsys, monkeypatch):
 
 
 def test_cases_by_name_or_label_and_unknown_ones(capsys):
-    assert bench.chosen_labels([]) == [*CONTESTS, *bench_growth.GROWTHS]
+    assert bench.chosen_labels([])[: len(CONTESTS) + len(CONTACTS)] == [*CONTESTS, *CONTACTS]
+    assert {*bench_growth.GROWTHS, *bench_lcp.LCP_STUDIES} <= set(bench.chosen_labels([]))
     assert bench.chosen_labels(["spring"]) == ["spring/2d", "spring/3d"]
     assert bench.chosen_labels(["spring/2d", "heavy_top"]) == ["spring/2d", "heavy_top"]
     with pytest.raises(SystemExit):
@@ -139,3 +141,16 @@ def test_growth_stops_where_it_is_slow_or_refused(tmp_path):
         assert "refused: pybullet's trees hold up to 127 links" in growth.table(rows)
     growth.plot(rows, tmp_path / "links.png")
     assert (tmp_path / "links.png").stat().st_size > 10_000
+
+
+def test_a_contact_contest_has_a_point_for_each_setting(tmp_path):
+    engines = {"pymunk": ({"rate": 60}, {"rate": 600, "slop": 1e-4}), "pybullet": ({"rate": 240},)}
+    contest = ContactContest("slide", "slope", {"share": 0.5, "duration": 0.5}, engines=engines)
+    rows = contest.measure(1e-3, 1, lambda message: None)
+    expected = 1 + sum(len(engines[name]) for name, engine in ENGINES.items() if engine.available)
+    assert len(rows) == expected and all(one["cpu_s"] > 0 for one in rows)
+    assert rows[0]["method"] == "velocity_lcp 60 Hz" and rows[0]["error"] < 1e-9
+    assert all(one["error"] < 0.3 for one in rows)
+    assert "CPU ms/s" in contest.table(rows) and "pymunk 600 Hz slop 0.0001" in contest.table(rows)
+    contest.plot(rows, tmp_path / "slide.png")
+    assert (tmp_path / "slide.png").stat().st_size > 10_000

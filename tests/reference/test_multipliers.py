@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import jointed
-from reference.choice import choose_solver
+from reference.cases import CASES
+from reference.choice import choose_solver, scaled_rows, short_combinations
 from reference.embedding import factorise_rows, fill_mass_rows, solve_rows
 from reference.layout import Bodies
 from reference.mechanism import make_mechanism, rigid_rows, soft_rows
@@ -95,8 +96,9 @@ def test_the_tree_refuses_loops():
         (jointed.chain(3), "cholesky", 0),
         (jointed.chain(50), "sparse", 0),
         (jointed.star(40), "tree", 0),
-        (jointed.four_bar(0.8), "cholesky", 0),
-        (jointed.net(), "sparse", 0),
+        (jointed.four_bar(0.8), "minimum_norm", 0),
+        (jointed.net(), "minimum_norm", 0),
+        (CASES["n_four_bars"](n=20).scene, "sparse", 0),
         (jointed.door(), "minimum_norm", 5),
         (jointed.parallelogram(), "minimum_norm", 1),
     ],
@@ -105,6 +107,16 @@ def test_what_is_chosen(scene, solver, redundant):
     bodies = Bodies(scene)
     choice = choose_solver(bodies, rigid_rows(bodies))
     assert (choice.solver, choice.redundant) == (solver, redundant)
+
+
+@pytest.mark.parametrize("n", [3, 40])
+def test_redundant_rows_are_counted_as_by_singular_values(n):
+    bodies = Bodies(CASES["n_four_bars"](n=n, dimension=3).scene)
+    J = scaled_rows(bodies, rigid_rows(bodies))
+    values = np.linalg.svd(J.toarray(), compute_uv=False)
+    assert J.shape[0] > 500 or n < 40
+    assert short_combinations(J, 1e-6) == np.sum(values < 1e-9) + max(0, J.shape[0] - J.shape[1]) == 3 * n
+    assert short_combinations(J, 0.5) == np.sum(values < 0.5) + max(0, J.shape[0] - J.shape[1])
 
 
 @pytest.mark.parametrize("planar", [True, False])

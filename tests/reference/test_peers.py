@@ -339,14 +339,6 @@ def test_what_an_engine_can_not_express():
         simulate_in(space.scene, "pymunk", 1.0, 0.1)
     with pytest.raises(Unsupported, match="pybullet has no planar bodies"):
         simulate_in(flat.scene, "pybullet", 1.0, 0.1)
-    scene = Scene(gravity=(0, 0))
-    scene.add(Disc(1.0))
-    scene.add(Disc(1.0), position=(5, 0))
-    with pytest.raises(Unsupported, match="bodies 0 and 1 could touch"):
-        simulate_in(scene, "pymunk", 1.0, 0.1)
-    scene.pair(0, 1, collide=False)
-    if ENGINES["pymunk"].available:
-        simulate_in(scene, "pymunk", 1.0, 0.1)
 
 
 @pytest.mark.parametrize(

@@ -95,7 +95,7 @@ def falling():
             lambda: simulate(falling(), 1, 0.1, simulator="penalty"),
             "simulator 'penalty' is not part of the course",
         ),
-        (lambda: simulate(falling(), 1, 0.1, solver="lemke"), "solver='lemke' has no effect under 'smooth'"),
+        (lambda: simulate(falling(), 1, 0.1, solver="lemke"), "solver='lemke' has no effect: without joints"),
     ],
 )
 def test_bad_input_says_what_would_be_right(make, words):

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +27,7 @@ from reference import (
     model,
     simulate,
 )
+from reference.cases import CASES
 
 ROOT = Path(__file__).parents[2]
 
@@ -167,6 +169,37 @@ def test_a_parallelogram_through_its_flat_position_says_so():
     E = run.energy()
     assert np.abs(E - E[0]).max() < 1e-3 * 9.81 * 3
     assert "singular" not in simulate(jointed.four_bar(0.8), 1, 0.005).reason
+
+
+@pytest.mark.parametrize("steps", [200, 400])
+def test_bricards_mechanism_is_not_locked_by_the_error_within_a_step(steps):
+    case = CASES["bricard"]()
+    run = simulate(case.scene, case.duration, case.duration / steps)
+    assert run.status == "ok" and "of 30 rows 29 are independent" in run.reason
+    assert case.error(run) < 0.01 * (200 / steps) ** 3
+    assert np.ptp(run.energy()) < 1e-3 * 5 * 9.81
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("steps", [800, 1600])
+def test_four_bars_pass_their_singular_positions_with_energy_kept(dimension, steps):
+    case = CASES["n_four_bars"](dimension=dimension)
+    run = simulate(case.scene, case.duration, case.duration / steps)
+    assert run.status == "ok" and "near a singular position" in run.reason
+    assert case.error(run) < 1e-3 and np.ptp(run.energy()) < 1e-4 * 6.5 * 9.81
+
+
+def test_energy_that_jumps_in_a_singular_position_ends_the_run():
+    case, steps = CASES["n_four_bars"](), 1600
+    options = {"solver": "sparse"}  # which does not look at the rank
+    run = simulate(case.scene, case.duration, case.duration / steps, **options)
+    assert run.status == "singular" and "though nothing in the scene could change it" in run.reason
+    assert "energy changed by" in run.reason and run.time[-1] < case.duration
+    assert case.error(replace(run, status="ok")) < 1e-3  # up to there it is right
+    assert np.ptp(run.energy()) < 1e-4 * 6.5 * 9.81
+    damped = CASES["n_four_bars"]().scene
+    damped.drag(0, linear=1e-3)
+    assert "energy" not in simulate(damped, case.duration, case.duration / steps, **options).reason
 
 
 def test_a_motor_without_a_limit_holds_its_speed():

@@ -1,6 +1,6 @@
 # Mistake: nothing is done about 0/0 at the kink.
 # Loses: slopes
-# Says: slopes: which is NaN
+# Says: slopes: comes of 0/0
 # ruff: noqa: F821 (names that are not defined here are solution_a's)
 
 

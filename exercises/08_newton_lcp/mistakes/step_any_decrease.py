@@ -1,7 +1,6 @@
 # Mistake: any decrease is taken.
 # Loses: step_length
 # Says: step_length: Any decrease is taken
-# ruff: noqa: F821 (names that are not defined here are solution_a's)
 
 
 # %%

@@ -1,7 +1,6 @@
 # Mistake: the whole step is never tried.
 # Loses: step_length
 # Says: step_length: The first step to try is 1
-# ruff: noqa: F821 (names that are not defined here are solution_a's)
 
 
 # %%

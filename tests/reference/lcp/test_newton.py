@@ -7,7 +7,6 @@ import pytest
 import scipy.optimize
 import scipy.sparse
 
-import lcp_enumeration
 from reference.cases.lcp_problems import LCP_PROBLEMS
 from reference.factored import Factored
 from reference.lcp import LCP, fischer_newton, gauss_seidel, interior_point, min_map_newton
@@ -87,7 +86,7 @@ def test_infeasibility_is_proved(seed):
     assert solution.solved == feasible
     if not feasible:
         y = solution.certificate["y"]
-        assert solution.status == "infeasible" and y.min() >= 0 and (A.T @ y).max() < 1e-7 and y @ b < 0
+        assert solution.status == "infeasible" and y.min() >= 0 and (A.T @ y).max() < 1e-6 * -(y @ b)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -202,7 +201,7 @@ def test_sparse_ten_thousand():
     solutions = [method(LCP(A, b)) for method in METHODS]
     for solution in solutions:
         assert solution.solved and np.allclose(solution.lam, solutions[0].lam, atol=1e-6)
-    assert lcp_enumeration.nearly(A, b, np.zeros(n), np.full(n, np.inf), solutions[0].lam, 1e-8)
+    assert np.abs(np.minimum(solutions[0].lam, A @ solutions[0].lam + b)).max() < 1e-8
 
 
 def test_newton_is_ten_times_as_fast_on_the_heavy_stack():

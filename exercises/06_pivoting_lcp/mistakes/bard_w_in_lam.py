@@ -1,0 +1,16 @@
+# Mistake: w is returned in the rows that are not inside.
+# Loses: bard
+# Says: bard: it is 0 in the rows that are not inside
+# ruff: noqa: F821 (names that are not defined here are solution_a's)
+
+# %%
+def bard(A, b, most):
+    """λ and the number of pivots by Bard's rule."""
+    inside, pivots = np.zeros(len(b), dtype=bool), 0
+    y = basic(A, b, inside)
+    while y.min() < -given.SLACK and pivots < most:
+        i = y.argmin()
+        inside[i] = not inside[i]
+        pivots += 1
+        y = basic(A, b, inside)
+    return y, pivots
