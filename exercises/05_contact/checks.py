@@ -183,7 +183,7 @@ ROLL = Check(
             lambda v, verdict: np.abs(v["centre"] - verdict.got).max() < 0.02,
         ),
     ),
-    hint="One run begins at rest; in each step u = after(…), then centre = centre + dt (u_x, u_y); mass, mu: 1. "
+    hint="A run begins at rest; in each step u = after(…), then centre += dt (u_x, u_y); mass, mu 1. "
     "Do it with dt and steps, and with dt/2 and 2 steps: return 2 fine − coarse.",
     after=("after",),
 )
