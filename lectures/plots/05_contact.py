@@ -108,7 +108,7 @@ def friction():
         arrow(axes, (0, 0), pull, GREEN, "pull", (0.05, 0.17))
         arrow(axes, (0, 0), λ, ORANGE, "$\\lambda_t$", (-0.18, -0.12))
         arrow(axes, pull, pull + λ, "k")
-        axes.annotate("$\\dot w_t$", pull + (pull + λ) / 2 + (0.2, -0.17), fontsize=11, ha="center")
+        axes.annotate("slides", pull + (pull + λ) / 2 + (0.35, -0.22), fontsize=10, ha="center")
         axes.set(title=title, aspect="equal", xlim=(-1.5, 2.9), ylim=(-1.5, 1.9), xlabel="$t_1$ (μN)")
     panels[0].set_ylabel("$t_2$ (μN)")
     return figure

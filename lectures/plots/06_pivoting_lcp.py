@@ -48,7 +48,7 @@ def draw_cones(axes, A, q):
         wedge = Wedge((0, 0), radius - 0.17 * k, start, start + width % 360, color=colour, alpha=0.45)
         axes.add_patch(wedge)
         middle = np.radians(start + width % 360 / 2)
-        at = (radius - 0.17 * k) * 0.7 * np.array([np.cos(middle), np.sin(middle)])
+        at = (radius - 0.17 * k) * 0.82 * np.array([np.cos(middle), np.sin(middle)])
         axes.annotate("$" + name.replace("λ", r"\lambda").replace(" ", r"\,") + "$", at, ha="center")
     for i in (0, 1):
         for way, label in ((np.eye(2)[i], f"$e_{i + 1}$"), (-A[:, i], f"$-A_{i + 1}$")):
