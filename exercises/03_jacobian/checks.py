@@ -422,17 +422,12 @@ ROPE = Check(
 # --- an engine ----------------------------------------------------------------------------------------------
 
 
-def from_pool(stream):
-    pool = engines.WHEELS.pool[len(engines.GEARS) :]
-    return [Case("any two wheels", pool[i]) for i in stream.choice(len(pool), 5, replace=False)]
-
-
 GEARS = Check(
     name="gears",
     title="two wheels in mesh, as pymunk's gear joint does it",
     points=20,
     visible=tuple(Case(label, inputs) for label, inputs in engines.GEARS.items()),
-    hidden=from_pool,
+    hidden=lambda stream: [Case("any two wheels", engines.any_wheels(stream)) for _ in range(5)],
     judge=equal(engines.WHEELS, 1e-9),
     source=engines.WHEELS.source,
     why="pymunk solves a single joint exactly in its first iteration: the two agree to 1e-14.",

@@ -170,24 +170,31 @@ def test_no_process_is_left(tmp_path):
 # --- one score everywhere -----------------------------------------------------------------------------------
 
 
+def functions_in(cell):
+    """The names of the functions that a cell defines."""
+    return [node.name for node in ast.parse(cell).body if isinstance(node, ast.FunctionDef)]
+
+
 def functions_of(path):
     """Source of a script's cells, by the function that it defines."""
-    found = {}
-    for cell in read_cells(path):
-        names = [node.name for node in ast.parse(cell).body if isinstance(node, ast.FunctionDef)]
-        found.update(dict.fromkeys(names, cell))
-    return found
+    return {name: cell for cell in read_cells(path) for name in functions_in(cell)}
 
 
 def filled(unit, *paths):
-    """The starter as a student would hand it in: each unwritten function's cell is that of the solution."""
+    """The starter as a student would hand it in: each unwritten function's cell is that of the solution,
+    whose imports and helpers come first."""
     book, written = nbformat.read(unit.starter, as_version=4), {}
     for path in paths:
         written.update(functions_of(path))
+    asked = set()
     for cell in book.cells:
         begins = re.match(r"def (\w+)\(", cell.source)
         if cell.cell_type == "code" and begins and begins.group(1) in written:
             cell.source = "import math\n" + written[begins.group(1)]
+            asked.add(begins.group(1))
+    first = next(k for k, cell in enumerate(book.cells) if cell.cell_type == "code")
+    others = [cell for path in paths for cell in read_cells(path) if not asked & set(functions_in(cell))]
+    book.cells[first + 1 : first + 1] = [nbformat.v4.new_code_cell(cell) for cell in others]
     return book
 
 

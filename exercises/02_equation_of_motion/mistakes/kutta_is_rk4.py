@@ -10,4 +10,4 @@ def kutta_step(rate, t, y, dt):
     k2 = rate(t + dt / 2, y + dt / 2 * k1)
     k3 = rate(t + dt / 2, y + dt / 2 * k2)
     k4 = rate(t + dt, y + dt * k3)
-    return y + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    return y + (k1 + 2 * (k2 + k3) + k4) * dt / 6
