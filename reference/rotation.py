@@ -12,6 +12,8 @@ Slides S4, S9; lectures/02_equation_of_motion.md. Source: Diebel, Representing A
 & Wanner, Geometric Numerical Integration (2006), section VII.5.
 """
 
+from types import FunctionType
+
 import numpy as np
 
 from .compiled import lean, plain
@@ -158,12 +160,20 @@ def solve3(a, b, c, r):
     )
 
 
+def plain_throughout(kernel):
+    """The kernel in plain Python, and with it all kernels that it calls: those make no arrays when compiled."""
+    function = plain(kernel)
+    called = {name: function.__globals__.get(name) for name in function.__code__.co_names}
+    names = {name: plain_throughout(f) for name, f in called.items() if hasattr(f, "py_func")}
+    return FunctionType(function.__code__, {**function.__globals__, **names})
+
+
 def over_arrays(kernel):
     """The kernel as a function of arrays, components along the last axis; leading axes broadcast.
 
     ``over_arrays(rotate)(q, r)`` takes q (…, 4) and r (…, 3) and gives (…, 3).
     """
-    function = plain(kernel)
+    function = plain_throughout(kernel)
 
     def on_arrays(*arguments):
         components = [np.moveaxis(np.asarray(a, dtype=float), -1, 0) for a in arguments]
