@@ -161,7 +161,7 @@ def solve3(a, b, c, r):
 
 
 def plain_throughout(kernel):
-    """The kernel in plain Python, and with it all kernels that it calls: those make no arrays when compiled."""
+    """The kernel in plain Python, with all kernels that it calls: compiled, they could not make arrays."""
     function = plain(kernel)
     called = {name: function.__globals__.get(name) for name in function.__code__.co_names}
     names = {name: plain_throughout(f) for name, f in called.items() if hasattr(f, "py_func")}
