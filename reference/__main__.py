@@ -7,7 +7,8 @@ Slides S4, S9; lectures/02_equation_of_motion.md.
 
 from tqdm import tqdm
 
-from .compiled import COMPILED, cache_directory
+from .code_cache import code_folder
+from .compiled import COMPILED
 from .integrators import INTEGRATORS
 from .joints import Distance
 from .scene import Scene
@@ -17,7 +18,7 @@ from .simulators import Simulation
 
 def main():
     """Run one step with each integrator, and one with a joint; a file in the cache's folder remembers it."""
-    folder = cache_directory() if COMPILED else None
+    folder = code_folder("reference.__main__") if COMPILED else None
     if folder is None or (folder / "complete").exists():
         return
     scene = Scene()

@@ -9,9 +9,7 @@ can't keep such a call in its cache on disk. ``bind(rk4, force)`` therefore fixe
 arguments once, before compiling: what Numba sees is an ordinary function of arrays, which it caches and
 inlines.
 
-The cache lies beside this file, in a folder named by a hash of the package's sources, Python and Numba,
-because Numba alone does not notice that a helper in *another* module was edited, and would go on serving the
-old answer.
+What was compiled is kept on disk: see ``code_cache``.
 
 Serves every slide from S4 and S9 on; lectures/02_equation_of_motion.md.
 """
@@ -21,10 +19,9 @@ import functools
 import hashlib
 import inspect
 import os
-import shutil
-import sys
 import textwrap
-from pathlib import Path
+
+from .code_cache import Place, code_folder
 
 try:
     import numba
@@ -32,31 +29,6 @@ except ImportError:  # the course runs without Numba, only slower
     numba = None
 
 COMPILED = numba is not None and os.environ.get("REFERENCE_COMPILED", "1") != "0"
-_KEPT_CACHES = 4  # older folders are deleted; a few are kept for other Pythons and other branches
-
-
-def source_hash(folder):
-    """A hash (16 hex digits) of all Python sources below a folder, of Python and of Numba."""
-    digest = hashlib.sha256(f"{sys.version} {numba and numba.__version__}".encode())
-    for path in sorted(Path(folder).rglob("*.py")):
-        digest.update(str(path.relative_to(folder)).encode() + b"\0" + path.read_bytes())
-    return digest.hexdigest()[:16]
-
-
-@functools.cache
-def cache_directory():
-    """The folder for compiled code that belongs to just these sources, or None where none can be written."""
-    package = Path(__file__).resolve().parent
-    folder = package / "__pycache__" / f"compiled-{source_hash(package)}"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        os.utime(folder)
-        others = sorted(folder.parent.glob("compiled-*"), key=lambda path: path.stat().st_mtime, reverse=True)
-        for old in others[_KEPT_CACHES:]:
-            shutil.rmtree(old, ignore_errors=True)
-    except OSError:
-        return None
-    return folder if os.access(folder, os.W_OK) else None
 
 
 def compiled(function=None, *, reorder=False):
@@ -93,14 +65,15 @@ def inner(function):
     return _compile(function, _nrt=False, no_cpython_wrapper=True) if COMPILED else function
 
 
-def _compile(function, **options):
-    folder = cache_directory()
+def _compile(function, *with_functions, **options):
+    folder = code_folder(*(plain(one).__module__ for one in (function, *with_functions)))
     options = {"cache": folder is not None, "error_model": "numpy", "forceinline": True} | options
-    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, str(folder or "")
+    Place.folder, before = folder, numba.config.CACHE_LOCATOR_CLASSES
+    numba.config.CACHE_LOCATOR_CLASSES = f"{Place.__module__}.{Place.__name__}"
     try:
         return numba.njit(function, **options)
     finally:
-        numba.config.CACHE_DIR = before
+        numba.config.CACHE_LOCATOR_CLASSES = before
 
 
 def merged(function):
@@ -160,7 +133,7 @@ def _bind_compiled(function, *functions):
     names = {**source.__globals__, **dict(zip(fixed, functions, strict=True))}
     kept = ("_nrt", "forceinline", "inline", "no_cpython_wrapper")  # it is compiled as the function given was
     options = {name: function.targetoptions[name] for name in kept if name in function.targetoptions}
-    return _compile(_defined(tree, definition, names, source.__code__.co_filename), **options)
+    return _compile(_defined(tree, definition, names, source.__code__.co_filename), *functions, **options)
 
 
 def _defined(tree, definition, names, file="<source>"):

@@ -39,9 +39,9 @@ pytestmark = [
 
 @pytest.fixture(scope="module")
 def course(tmp_path_factory):
-    """A copy of the course, with one more notebook, which asks for a kernel that nobody has."""
+    """A copy of the course with its compiled code, and one more notebook, for a kernel that nobody has."""
     folder = tmp_path_factory.mktemp("browser") / "a course"
-    ignored = shutil.ignore_patterns(".*", "work", "build", "__pycache__", "tests")
+    ignored = shutil.ignore_patterns(".*", "work", "build", "tests")
     shutil.copytree(ROOT, folder, ignore=ignored)
     (folder / "notebooks").mkdir(exist_ok=True)
     cell = {
@@ -123,8 +123,9 @@ def browser(tmp_path_factory):
 
 
 def open_in_lab(browser, address, path):
-    parts = urllib.parse.urlsplit(address)
-    browser.get(f"{parts.scheme}://{parts.netloc}/lab/tree/{path}?{parts.query}")
+    """Opens a file in a workspace of its own: in a common one, Lab may bring earlier tabs back beside it."""
+    parts, workspace = urllib.parse.urlsplit(address), Path(path).stem
+    browser.get(f"{parts.scheme}://{parts.netloc}/lab/workspaces/{workspace}/tree/{path}?{parts.query}")
 
 
 def run_all(browser, address, course, name):

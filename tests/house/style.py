@@ -16,6 +16,7 @@ from . import tree
 # Beside DESIGN's modules: inputs (what a user hands in), inertia (of a shape), declared (a scene's parts),
 # layout (a scene as arrays), forces (f_e), the methods and the report of the bench.
 LAYERS = (
+    ("code_cache",),
     ("compiled", "inputs"),
     ("rotation", "inertia", "shapes", "joints", "declared", "scene"),
     ("bodies", "layout", "forces", "integrators"),

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from reference import compiled
+from reference import code_cache, compiled
 
 ROOT = Path(compiled.__file__).parent.parent
 needs_numba = pytest.mark.skipif(compiled.numba is None, reason="Numba is not installed: everything is plain")
@@ -86,23 +86,87 @@ def test_the_cache_hits_and_an_edited_helper_is_never_served_stale(tmp_path):
     assert float(python(SMALL, tmp_path).split()[0]) == pytest.approx(-0.3)
 
 
-def test_old_caches_are_cleared(tmp_path, monkeypatch):
+def test_old_code_is_cleared(tmp_path):
     package = tmp_path / "reference"
-    shutil.copytree(ROOT / "reference", package, ignore=shutil.ignore_patterns("__pycache__"))
-    monkeypatch.setattr(compiled, "__file__", str(package / "compiled.py"))
+    package.mkdir()
     for k in range(7):
-        (package / "extra.py").write_text(f"# {k}")
-        folder = compiled.cache_directory.__wrapped__()
+        (package / "loops.py").write_text(f"# {k}")
+        code_cache.sources.cache_clear()
+        folder = code_cache.code_folder.__wrapped__("reference.loops", package=package)
         os.utime(folder, (k, k))
-    kept = {path.name for path in (package / "__pycache__").glob("compiled-*")}
+    code_cache.sources.cache_clear()
+    kept = {path.name for path in folder.parent.glob("loops-*")}
     assert folder.name in kept and len(kept) <= 5
 
 
-def test_without_a_place_to_write_there_is_no_cache(tmp_path, monkeypatch):
-    (tmp_path / "reference").mkdir()
-    (tmp_path / "reference" / "__pycache__").write_text("a file in the way")
-    monkeypatch.setattr(compiled, "__file__", str(tmp_path / "reference" / "compiled.py"))
-    assert compiled.cache_directory.__wrapped__() is None
+def test_without_a_place_to_write_no_code_is_kept(tmp_path):
+    package = tmp_path / "reference"
+    package.mkdir()
+    (package / "loops.py").write_text("")
+    (package / "__pycache__").write_text("a file in the way")
+    assert code_cache.code_folder.__wrapped__("reference.loops", package=package) is None
+
+
+def test_what_stands_outside_the_package_is_not_kept():
+    assert code_cache.code_folder("__main__") is None
+    assert code_cache.code_folder("reference.forces", "__main__") is None
+
+
+PARTS = {
+    "__init__": "from .top import top\n",
+    "top": "from .parts.loop import loop as turn\nfrom .parts import (\n    other,\n)\n",
+    "parts/__init__": "from .unused import unused\n",
+    "parts/loop": "from . import helper\nfrom ..common import Pair\n",
+    "parts/helper": "import numpy as np\n\ndef late():\n    from ..common import Pair\n",
+    "parts/other": "import parts_of.common, os\n",
+    "parts/unused": "",
+    "common": "",
+    "alone": "",
+    "tuples": "class Pair(NamedTuple):\n    a: int\n\n    b: int\n\n\ndef f():\n    pass\n",
+}
+
+
+def written(folder, **changed):
+    """The sources of a small package, some of its modules changed."""
+    for name, text in (PARTS | changed).items():
+        file = folder / "parts_of" / f"{name}.py"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+    return code_cache.Sources(folder / "parts_of")
+
+
+def test_what_lies_behind_a_module(tmp_path):
+    known = written(tmp_path)
+    names = {name.removeprefix("parts_of.") for name in known.behind("parts_of.top")}
+    assert names == {"top", "parts.loop", "parts.other", "parts.helper", "common"}
+    assert known.behind("parts_of.alone") == {"parts_of.alone"}
+    assert "parts_of.parts.unused" in known.behind("parts_of.parts")  # a package stands for what it imports
+
+
+def test_an_edit_drops_the_code_of_what_builds_on_it_and_no_other(tmp_path):
+    def hashes(**changed):
+        known = written(tmp_path, **changed)
+        return known.hash(["parts_of.top"]), known.hash(["parts_of.alone"])
+
+    top, alone = hashes()
+    assert hashes() == (top, alone)
+    for module in ("parts/helper", "common", "top"):
+        changed = hashes(**{module: PARTS[module] + "# edited\n"})
+        assert changed[0] != top and changed[1] == alone
+    changed = hashes(tuples=PARTS["tuples"] + "# no field\n")
+    assert changed == (top, alone)
+    changed = hashes(tuples=PARTS["tuples"].replace("    b", "    c"))
+    assert changed[0] != top and changed[1] != alone  # a tuple's fields reach kernels that never name it
+
+
+@needs_numba
+@pytest.mark.slow
+def test_a_copy_of_the_package_brings_its_code_along(tmp_path):
+    first = tmp_path / "here" / "reference"
+    shutil.copytree(ROOT / "reference", first, ignore=shutil.ignore_patterns("__pycache__"))
+    assert python(SMALL, first.parent).split() == ["-0.1", "0", "1"]
+    shutil.copytree(first, tmp_path / "there" / "reference")
+    assert python(SMALL, tmp_path / "there").split() == ["-0.1", "1", "0"]
 
 
 def test_bind_of_plain_functions_is_a_partial():

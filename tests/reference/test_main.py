@@ -12,7 +12,7 @@ from reference import compiled
 @pytest.mark.skipif(not compiled.COMPILED, reason="Numba is not there, or switched off: nothing is compiled")
 def test_compiles_once(tmp_path, monkeypatch):
     done = []
-    monkeypatch.setattr(main, "cache_directory", lambda: tmp_path)
+    monkeypatch.setattr(main, "code_folder", lambda module: tmp_path)
     monkeypatch.setattr(main, "Simulation", lambda *_, integrator="joints": done.append(integrator) or Step())
     main.main()
     assert sorted(done) == sorted([*main.INTEGRATORS, "joints"]) and (tmp_path / "complete").exists()
