@@ -2,7 +2,7 @@
 
 Numba alone looks only at the file a function stands in. It doesn't notice that a helper in *another* module
 was edited, and would go on serving the old answer. Here the code of a module lies in a folder named by a hash
-of everything it was made from: the module, the modules of the package it imports, those they import, and so on.
+of all it was made from: the module, the modules of the package it imports, those they import, and so on.
 To edit a file therefore drops the code of just the modules that build on it; and a copy of the course brings
 its code along, since no path is part of the name.
 
