@@ -1,0 +1,56 @@
+"""Helpers of the exercise of unit 09, error correction (slide S13)."""
+
+import numpy as np
+
+G = 9.81  # m/s², downwards, along −y
+GRAVITY = np.array([0.0, -G])
+
+
+def rk4(rate, y, dt):
+    """One step of Runge and Kutta's method of order 4; rate(y) is ẏ, an array like y."""
+    k1 = rate(y)
+    k2 = rate(y + dt / 2 * k1)
+    k3 = rate(y + dt / 2 * k2)
+    k4 = rate(y + dt * k3)
+    return y + dt / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+
+
+def show_swing(swing):
+    """Draws how a rod that is 2 cm too long comes back, computed by swing, for three pairs of α and β."""
+    import matplotlib.pyplot as plt
+
+    _, axes = plt.subplots(figsize=(6, 3.2), layout="constrained")
+    for (alpha, beta), style in {(0, 10): ":", (2, 10): "--", (10, 10): "-"}.items():
+        x, v, gaps = np.array([1.02, 0.0]), np.zeros(2), [0.02]
+        for _ in range(150):
+            answer = swing(x, v, 1.0, alpha, beta, 0.01, 1)
+            if not isinstance(answer, tuple):
+                print("The picture comes once swing passes its check.")
+                return
+            x, v = answer
+            gaps.append(np.hypot(*x) - 1)
+        axes.plot(0.01 * np.arange(151), gaps, style, label=f"α = {alpha}/s, β = {beta}/s")
+    axes.set(xlabel="time in s", ylabel="gap in m")
+    axes.legend()
+    plt.show()
+
+
+def show_chain(chain):
+    """Draws a chain of ten links, held at one end, half a second after it was let go, stiff and soft."""
+    import matplotlib.pyplot as plt
+
+    _, axes = plt.subplots(figsize=(4.5, 4), layout="constrained")
+    start = np.column_stack([0.1 * np.arange(11), np.zeros(11)])
+    inverse = np.array([0.0] + [10.0] * 10)
+    for compliance, style in {0.0: "-o", 1e-3: "--s", 1e-2: ":^"}.items():
+        x, v = start, np.zeros_like(start)
+        for _ in range(50):
+            answer = chain(x, v, inverse, 0.1, compliance, 0.01, 50)
+            if not isinstance(answer, tuple):
+                print("The picture comes once chain passes its check.")
+                return
+            x, v = answer[:2]
+        axes.plot(*x.T, style, label=f"{compliance:g} m/N")
+    axes.set(xlabel="x in m", ylabel="y in m", aspect="equal")
+    axes.legend(title="compliance")
+    plt.show()
