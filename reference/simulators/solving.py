@@ -21,7 +21,7 @@ from ..lcp.velocity_form import one_body
 from .impacts import rates
 
 USABLE = 1e-6  # a residual with which a run goes on, though the method didn't come to its end
-DEFAULT_SOLVERS = {"cone": "cone_newton", "box": "dantzig", "pyramid": "lemke"}  # exact, at a few hundred rows
+DEFAULT_SOLVERS = {"cone": "cone_newton", "box": "lemke", "pyramid": "lemke"}  # exact
 
 
 class Unsolvable(Exception):
@@ -52,7 +52,9 @@ class StepSolver:
                 after, passes, error = cone_newton_kernel(rows, M, free, True, λ, *self.limits, np.zeros(0))
             else:
                 A = factors(rows, M, softness)
-                _, passes, error = cone_newton_kernel(*as_one_body(rows, A, free), True, λ, *self.limits, np.zeros(0))
+                _, passes, error = cone_newton_kernel(
+                    *as_one_body(rows, A, free), True, λ, *self.limits, np.zeros(0)
+                )
                 after = free + A.velocities(λ)
             self.note(passes, error)
             return after
@@ -76,7 +78,9 @@ class StepSolver:
         count, first, reason = self.unsolved.get(solution.status, (0, time, solution.reason))
         self.unsolved[solution.status] = count + 1, first, reason
         if solution.status != "max_iterations" and not solution.residual <= USABLE:
-            raise Unsolvable(solution.status, f"{self.name} could not solve the contacts ({solution.reason}) in")
+            raise Unsolvable(
+                solution.status, f"{self.name} could not solve the contacts ({solution.reason}) in"
+            )
 
     def told(self):
         """What must be said of unsolved problems, or ""."""
@@ -111,7 +115,9 @@ def cone_problem(rows, A, free, λ):
     first, size = rows.block[:-1], np.diff(rows.block)
     short = np.flatnonzero(size == 1)
     if np.any(rows.lower[first[short]] != 0) or np.any(rows.upper[first[short]] != np.inf):
-        raise Unsolvable("unsuitable", "a row with bounds is no friction cone, so cone methods can't treat it, in")
+        raise Unsolvable(
+            "unsuitable", "a row with bounds is no friction cone, so cone methods can't treat it, in"
+        )
     place = np.repeat(d * np.arange(len(first)) - first, size) + np.arange(len(rows.c))
     m, k, n = d * len(first), A.J.shape[2], A.count
     bodies, J, B = np.full((m, 2), -1), np.zeros((m, 2, k)), np.zeros((m, 2, k))
