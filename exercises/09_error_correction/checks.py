@@ -77,7 +77,7 @@ ACCELERATION = Check(
 DT = 0.01  # s; the order is fitted at DT, DT/2, DT/4
 
 
-def swung(where, steps=40):
+def swung(where, steps=20):
     return {**where, "dt": DT, "steps": steps}
 
 
@@ -111,7 +111,7 @@ SWING = Check(
     hidden=lambda stream: [Case("any swing", swung(any_pendulum(stream))) for _ in range(4)],
     judge=all_of(on_answer(0, equal(right.swing, 1e-9)), fitted_order(decay_errors, 4, 0.5)),
     why="The scheme is given, so only rounding may differ. The order is that of the gap's error against the "
-    "solution of φ̈ + 2 α φ̇ + β² φ = 0, 4 to within 0.05 at these steps; with Euler's method, or λ held over "
+    "solution of φ̈ + 2 α φ̇ + β² φ = 0, 4 to within 0.01 at these steps; with Euler's method, or λ held over "
     "a step, it is near 1.",
     form="two values, (x, v): arrays (2,)",
     section=FEEDBACK,
