@@ -9,7 +9,7 @@ def hang(mass, length, compliance, dt):
     n = len(mass)
     x = np.column_stack([np.zeros(n + 1), -length * np.arange(n + 1)])
     v, inverse = np.zeros_like(x), np.concatenate([[0], 1 / mass])
-    for _ in range(6):
+    for _ in range(4):
         x, v, lam = chain(x, v, inverse, length, compliance, dt, 100)
         if np.abs(v).max() < 1e-9:
             break
