@@ -69,7 +69,7 @@ def _grade(job):
     checks = checks_of(unit, job["cases"])
     with workers.open_box(unit, job["unsafe"]) as box:
         notebook = base64.b64decode(job["notebook"])
-        box.load(notebook)
+        fingerprint = workers.load(box, notebook, job["starter"])
         rejected = box.status == "rejected"
         marked = list(map(nothing, checks) if rejected else map(told, mark_in_turn(checks, box.ask)))
         return {
@@ -84,7 +84,7 @@ def _grade(job):
             "environment": environment(),
             "student_seconds": round(box.seconds, 3),
             "student_cpu": round(box.cpu, 3),
-            "fingerprint": {} if rejected else workers.fingerprint(box, notebook, job["starter"]),
+            "fingerprint": {} if rejected else fingerprint,
         }
 
 

@@ -11,6 +11,7 @@ from exercises.grader.sandbox import nursery as home
 from exercises.grader.sandbox.files import compiled, contents
 from exercises.grader.sandbox.isolation import choose
 from exercises.grader.sandbox.limits import Limits, stretch
+from exercises.grader.sandbox.preload import names_tools
 from exercises.grader.sandbox.wire import Gone
 from exercises.grader.sandbox.words import Trouble, clean
 from exercises.grader.sandbox.workers import Worker
@@ -33,11 +34,12 @@ class Sandbox:
 
     def __init__(self, unit, given=None, limits=None, unsafe=False):
         self.unit, self.limits = unit, limits or Limits()
-        self.given = compiled(Path(given or exercises.FOLDER / unit / "given.py"))
+        self.given, self.tools = compiled(Path(given or exercises.FOLDER / unit / "given.py"))
         self.kind = choose(unsafe)
         self.isolation = self.kind.split(",")[0]
         self.status, self.reason = "unsandboxed" if self.kind == "none" else "ok", ""
         self.troubles, self.titles, self.modes, self.data, self.form = [], [], [], b"", ""
+        self.told = None  # what our own function made of the cells
         self.worker, self.started, self.seconds, self.cpu = None, time.monotonic(), 0.0, 0.0
 
     def __enter__(self):
@@ -52,12 +54,15 @@ class Sandbox:
 
     # --- what the grader asks -------------------------------------------------------------------------------
 
-    def load(self, source):
-        """Runs all cells of a notebook or script, a path or its bytes. Returns the box itself."""
+    def load(self, source, task=None, extra=None):
+        """Runs all cells of a notebook or script, a path or its bytes. Returns the box itself. Before that
+        our own function TASKS[task] may look at them: what it makes of them is `told`, None if it fails."""
         self.started = time.monotonic()
         try:
             self.data, self.form = contents(source, self.limits.notebook)
             self._open()
+            if task is not None:
+                self.told = self._task(task, extra)
             self._run_cells(self.limits.cell)
         except (OSError, ValueError) as error:
             self._tell("rejected", f"the file cannot be read: {error}")
@@ -88,21 +93,6 @@ class Sandbox:
                 self._end()
             self.seconds += time.monotonic() - self.started
 
-    def task(self, name, extra=None):
-        """What our own function TASKS[name] makes of the cells, in a worker that runs none of them; None if
-        that fails."""
-        if self.status == "rejected":
-            return None
-        self._end()
-        try:
-            self._open()
-            self.worker.wire.send(_line({"task": name, "extra": extra}), self.limits.cell)
-            return parse(self._reply(self.limits.cell))["task"]
-        except (Gone, BadReply, KeyError, TypeError):
-            return None
-        finally:
-            self._end()
-
     # --- workers --------------------------------------------------------------------------------------------
 
     def _answer(self, text, calls):
@@ -124,9 +114,19 @@ class Sandbox:
             raise Gone(f"the answer has more than {MOST_PARTS:,} parts")
         return data.decode("utf-8", "replace")
 
+    def _task(self, name, extra):
+        """In the worker that is open, which has run none of the cells."""
+        try:
+            self.worker.wire.send(_line({"task": name, "extra": extra}), self.limits.cell)
+            return parse(self._reply(self.limits.cell))["task"]
+        except (Gone, BadReply, KeyError, TypeError):
+            self._end()
+            self._open()
+            return None
+
     def _open(self):
         """A fresh worker that holds the cells; none has run."""
-        self.worker = Worker(self.kind, self.limits)
+        self.worker = Worker(self.kind, self.limits, self.tools or names_tools(self.data))
         header = {"open": self.unit, "given": len(self.given), "file": len(self.data), "form": self.form}
         try:
             self.worker.wire.send(_line(header) + self.given + self.data, LONGEST_OPEN)

@@ -6,9 +6,9 @@ is sent back is our own word; after that it is the student's.
     {"open": slug, "given": n, "file": m, "form": word}   n bytes of given.py's code, m of the file
                                          → {"titles": [first line of each cell]} or {"rejected": why}
     {"run": [["whole" or "part" or "no", number], ...]}       → {"done": number, "error": ...} for each
+    {"task": name, "extra": ...}                              → {"task": result}; before any cell runs
     {"calls": [...]}                                          → {"replies": [...]}, and the end
         with "more": true                                     → the same, and another message follows
-    {"task": name, "extra": ...}                              → {"task": result}, and the end
     {"canary": {...}}                                         → {"canary": [what got through]}, and the end
 """
 
@@ -31,7 +31,7 @@ TITLE = 60
 class Inside:
     def __init__(self, inbox, outbox):
         self.inbox, self.outbox = os.fdopen(inbox, "rb"), outbox
-        self.cells, self.namespace, self.worker = [], None, None
+        self.file, self.cells, self.namespace, self.worker = b"", [], None, None
 
     def serve(self):
         for line in self.inbox:
@@ -40,7 +40,10 @@ class Inside:
             if kind == "open":
                 for message in self.open(request):
                     self.send(message)
+            elif kind == "task":
+                self.send({"task": self.task(request)})
             elif kind == "run":
+                self.file = b""
                 for mode, number in request["run"]:
                     self.send({"done": number, "error": self.run(mode, number)})
             else:
@@ -50,12 +53,11 @@ class Inside:
 
     def open(self, request):
         """What to send back; a notebook's cells, too, to be sent in alone from the second time on."""
-        given, data = self.inbox.read(request["given"]), self.inbox.read(request["file"])
+        given, self.file = self.inbox.read(request["given"]), self.inbox.read(request["file"])
         try:
             is_notebook = request["form"] == "notebook"
-            self.cells = (
-                json.loads(data) if request["form"] == "cells" else cells_of(data, "the file", is_notebook)
-            )
+            known = request["form"] == "cells"
+            self.cells = json.loads(self.file) if known else cells_of(self.file, "the file", is_notebook)
         except Unreadable as error:
             return [{"rejected": str(error)}]
         if not all(isinstance(cell, str) for cell in self.cells) or len(self.cells) > MOST_CELLS:
@@ -73,13 +75,13 @@ class Inside:
             return self.namespace.run_definitions(source, name)
         return self.namespace.run(source, name) if mode == "whole" else None
 
+    def task(self, request):
+        module, _, function = TASKS[request["task"]].partition(":")
+        return getattr(importlib.import_module(module), function)(self.cells, self.file, request["extra"])
+
     def answer(self, kind, request, line):
         if kind == "calls":
-            return self.worker.answer(line).encode()
-        if kind == "task":
-            module, _, function = TASKS[request["task"]].partition(":")
-            result = getattr(importlib.import_module(module), function)(self.cells, request["extra"])
-            return json.dumps({"task": result}, allow_nan=False).encode()
+            return self.worker.answer(line, last="more" not in request).encode()
         from exercises.grader.sandbox import canary
 
         return json.dumps({"canary": canary.sing(**request["canary"])}).encode()
