@@ -64,11 +64,12 @@ class Namespace:
         self.names.update(display=lambda *things, **options: None, get_ipython=lambda: absent.shell)
         absent.shell = Shell(self)
 
-    def run(self, source, name="cell"):
-        """Runs one cell. None, or the exception as `describe` tells it."""
+    def run(self, source, name="cell", code=None):
+        """Runs one cell, whose code may be known already. None, or the exception as `describe` tells it."""
         _reopen_output()
         try:
-            code = _compiled(source, name, self.future)
+            if code is None or self.future:
+                code = _compiled(source, name, self.future)
             lines = source.splitlines(keepends=True)
             linecache.cache[name] = (len(source), None, lines, name)  # for tracebacks
             self.future |= code.co_flags & FUTURE  # `from __future__ import …` holds in later cells too
@@ -110,6 +111,14 @@ def _defines(statement):
             return False
     kinds = (ast.Import, ast.ImportFrom, ast.FunctionDef, ast.AsyncFunctionDef, ast.ClassDef)
     return isinstance(statement, kinds)
+
+
+def code_of(source, name="cell"):
+    """The code of a cell that is plain Python, else None."""
+    try:
+        return compile(source, name, "exec", ast.PyCF_ALLOW_TOP_LEVEL_AWAIT, dont_inherit=True)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
 
 
 def _compiled(source, name, flags=0):

@@ -34,7 +34,7 @@ def load(box, notebook, starter):
     box.load(notebook, "fingerprint", starter)
     answer = box.told if isinstance(box.told, dict) else {}
     numbers, hints = answer.get("numbers"), answer.get("hints")
-    if not isinstance(numbers, list) or not all(type(n) is int for n in numbers[:5000]):
+    if not isinstance(numbers, list) or not all(type(n) is int and 0 <= n < 2**62 for n in numbers[:5000]):
         numbers = []
     if not isinstance(hints, list) or not all(isinstance(hint, str) for hint in hints[:100]):
         hints = []

@@ -39,6 +39,7 @@ class Sandbox:
         self.isolation = self.kind.split(",")[0]
         self.status, self.reason = "unsandboxed" if self.kind == "none" else "ok", ""
         self.troubles, self.titles, self.modes, self.data, self.form = [], [], [], b"", ""
+        self.codes = b""  # of the cells; not looked at here
         self.told = None  # what our own function made of the cells
         self.worker, self.started, self.seconds, self.cpu = None, time.monotonic(), 0.0, 0.0
 
@@ -61,8 +62,10 @@ class Sandbox:
         try:
             self.data, self.form = contents(source, self.limits.notebook)
             self._open()
+            self.codes = self._ahead({"compile": True}) or b""
             if task is not None:
-                self.told = self._task(task, extra)
+                told = self._ahead({"task": task, "extra": extra})
+                self.told = told and parse(told.decode())["task"]
             self._run_cells(self.limits.cell)
         except (OSError, ValueError) as error:
             self._tell("rejected", f"the file cannot be read: {error}")
@@ -114,12 +117,12 @@ class Sandbox:
             raise Gone(f"the answer has more than {MOST_PARTS:,} parts")
         return data.decode("utf-8", "replace")
 
-    def _task(self, name, extra):
-        """In the worker that is open, which has run none of the cells."""
+    def _ahead(self, message):
+        """The answer of the worker that is open, which has run none of the cells; None if that ended it."""
         try:
-            self.worker.wire.send(_line({"task": name, "extra": extra}), self.limits.cell)
-            return parse(self._reply(self.limits.cell))["task"]
-        except (Gone, BadReply, KeyError, TypeError):
+            self.worker.wire.send(_line(message), self.limits.cell)
+            return self.worker.wire.line(self._left(self.limits.cell), LONGEST_CELLS)
+        except Gone:
             self._end()
             self._open()
             return None
@@ -127,9 +130,10 @@ class Sandbox:
     def _open(self):
         """A fresh worker that holds the cells; none has run."""
         self.worker = Worker(self.kind, self.limits, self.tools or names_tools(self.data))
-        header = {"open": self.unit, "given": len(self.given), "file": len(self.data), "form": self.form}
+        parts = {"given": self.given, "codes": self.codes, "file": self.data}
+        header = {"open": self.unit, **{name: len(part) for name, part in parts.items()}, "form": self.form}
         try:
-            self.worker.wire.send(_line(header) + self.given + self.data, LONGEST_OPEN)
+            self.worker.wire.send(_line(header) + b"".join(parts.values()), LONGEST_OPEN)
             answer = json.loads(self.worker.wire.line(LONGEST_OPEN, LONGEST_TITLES))
             if "unconfined" in answer:
                 raise home.SandboxError(f"a worker could not be shut in: {answer['unconfined']}")

@@ -3,8 +3,9 @@
 Messages come one a line, in JSON; bytes that belong to one follow its line. Until the first cell runs, what
 is sent back is our own word; after that it is the student's.
 
-    {"open": slug, "given": n, "file": m, "form": word}   n bytes of given.py's code, m of the file
-                                         → {"titles": [first line of each cell]} or {"rejected": why}
+    {"open": slug, "given": n, "codes": k, "file": m, "form": word}   n bytes of given.py's code, m of the
+                   file, and k that "compile" gave    → {"titles": [first line of each cell]} or {"rejected": why}
+    {"compile": true}                    → the cells' code, so that no other worker need compile it again
     {"run": [["whole" or "part" or "no", number], ...]}       → {"done": number, "error": ...} for each
     {"task": name, "extra": ...}                              → {"task": result}; before any cell runs
     {"calls": [...]}                                          → {"replies": [...]}, and the end
@@ -12,6 +13,7 @@ is sent back is our own word; after that it is the student's.
     {"canary": {...}}                                         → {"canary": [what got through]}, and the end
 """
 
+import base64
 import importlib
 import json
 import marshal
@@ -20,7 +22,7 @@ import sys
 import types
 
 import exercises
-from exercises.grader.cells import Namespace, Unreadable, cells_of
+from exercises.grader.cells import Namespace, Unreadable, cells_of, code_of
 from exercises.grader.sandbox import TASKS
 from exercises.grader.worker import Worker
 
@@ -31,7 +33,7 @@ TITLE = 60
 class Inside:
     def __init__(self, inbox, outbox):
         self.inbox, self.outbox = os.fdopen(inbox, "rb"), outbox
-        self.file, self.cells, self.namespace, self.worker = b"", [], None, None
+        self.file, self.cells, self.codes, self.namespace, self.worker = b"", [], [], None, None
 
     def serve(self):
         for line in self.inbox:
@@ -40,6 +42,8 @@ class Inside:
             if kind == "open":
                 for message in self.open(request):
                     self.send(message)
+            elif kind == "compile":
+                self.write(self.compile())
             elif kind == "task":
                 self.send({"task": self.task(request)})
             elif kind == "run":
@@ -53,10 +57,9 @@ class Inside:
 
     def open(self, request):
         """What to send back; a notebook's cells, too, to be sent in alone from the second time on."""
-        given, self.file = self.inbox.read(request["given"]), self.inbox.read(request["file"])
+        given, codes, self.file = (self.inbox.read(request[part]) for part in ("given", "codes", "file"))
+        is_notebook, known = request["form"] == "notebook", request["form"] == "cells"
         try:
-            is_notebook = request["form"] == "notebook"
-            known = request["form"] == "cells"
             self.cells = json.loads(self.file) if known else cells_of(self.file, "the file", is_notebook)
         except Unreadable as error:
             return [{"rejected": str(error)}]
@@ -66,14 +69,22 @@ class Inside:
         sys.modules["__main__"] = self.namespace.module
         module = load_given(request["open"], given)
         self.worker = Worker(self.namespace.names, module)
-        titles = {"titles": [title(cell) for cell in self.cells]}
-        return [titles] if request["form"] == "cells" else [titles, self.cells]
+        if known:
+            self.codes = marshal.loads(base64.b64decode(codes)) if codes else []
+            return [{"titles": []}]
+        return [{"titles": [title(cell) for cell in self.cells]}, self.cells]
+
+    def compile(self):
+        """Before any cell runs, so that this is still our own word."""
+        self.codes = [code_of(cell, _name(number)) for number, cell in enumerate(self.cells, 1)]
+        return base64.b64encode(marshal.dumps(self.codes))
 
     def run(self, mode, number):
-        name, source = f"cell {number}", self.cells[number - 1]
+        name, source = _name(number), self.cells[number - 1]
         if mode == "part":
             return self.namespace.run_definitions(source, name)
-        return self.namespace.run(source, name) if mode == "whole" else None
+        code = self.codes[number - 1] if self.codes else None
+        return self.namespace.run(source, name, code) if mode == "whole" else None
 
     def task(self, request):
         module, _, function = TASKS[request["task"]].partition(":")
@@ -93,6 +104,10 @@ class Inside:
         rest = memoryview(data + b"\n")
         while rest:
             rest = rest[os.write(self.outbox, rest) :]
+
+
+def _name(number):
+    return f"cell {number}"
 
 
 def load_given(unit, code):
