@@ -49,8 +49,11 @@ def cells_of(data, name, is_notebook):
     if not is_notebook:
         return [cell for cell in re.split(r"(?m)^# %%.*$", text) if cell.strip()]
     try:
-        cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
-        return ["".join(cell["source"]) for cell in cells]
+        book = json.loads(text)
+        if "cells" not in book and "worksheets" in book:  # how notebooks of format 3 were written
+            book = {"cells": [cell for sheet in book["worksheets"] for cell in sheet["cells"]]}
+        cells = [cell for cell in book["cells"] if cell["cell_type"] == "code"]
+        return ["".join(cell["source"] if "source" in cell else cell["input"]) for cell in cells]
     except (ValueError, KeyError, TypeError, RecursionError):
         raise Unreadable(f"{name} is not a notebook: its JSON has no list of cells") from None
 
@@ -164,6 +167,9 @@ class Shell:
             self.user_ns[name] = absent.INERT_THING  # what was printed, if anybody asks
         if magic in RUN_THEIR_CELL:
             _run(_compiled(cell, "cell"), self.user_ns)
+
+    def run_cell(self, cell, *rest, **options):
+        self.namespace.run(cell)
 
     def getoutput(self, command, *rest, **options):
         return []

@@ -28,6 +28,8 @@ class EngineOracle:
     """`run(**inputs)` asks the engine, `inputs()` lists what to record, `settings` say how it is set;
     `model(inputs)` is what the engine would say, if there is a formula for it."""
 
+    remembers = True  # what it answered, for the engine and for its recording apart
+
     def __init__(self, engine, path, run, inputs, settings, model=None):
         self.engine, self.path, self.settings = engine, Path(path), settings
         self.run, self.inputs, self.model, self.answers = run, inputs, model, {}

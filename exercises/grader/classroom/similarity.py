@@ -55,7 +55,8 @@ def _without_common(numbers_of):
 
 
 def _pairs(numbers_of):
-    """By the product of a matrix with its transpose: a row a submission, a column a number, 1 where it has it."""
+    """By the product of a matrix with its transpose: a row a submission, a column a number, 1 where it has
+    it."""
     ones = [one for one, numbers in numbers_of.items() if len(numbers) >= LEAST]
     sizes = np.array([len(numbers_of[one]) for one in ones])
     if len(ones) < 2:

@@ -34,12 +34,13 @@ class Sandbox:
 
     def __init__(self, unit, given=None, limits=None, unsafe=False):
         self.unit, self.limits = unit, limits or Limits()
-        self.given, self.tools = compiled(Path(given or exercises.FOLDER / unit / "given.py"))
+        self.given, self.helpers_need_tools = compiled(Path(given or exercises.FOLDER / unit / "given.py"))
         self.kind = choose(unsafe)
         self.isolation = self.kind.split(",")[0]
         self.status, self.reason = "unsandboxed" if self.kind == "none" else "ok", ""
         self.troubles, self.titles, self.modes, self.data, self.form = [], [], [], b"", ""
         self.codes = b""  # of the cells; not looked at here
+        self.tools = False  # needs the large ones
         self.told = None  # what our own function made of the cells
         self.worker, self.started, self.seconds, self.cpu = None, time.monotonic(), 0.0, 0.0
 
@@ -61,6 +62,7 @@ class Sandbox:
         self.started = time.monotonic()
         try:
             self.data, self.form = contents(source, self.limits.notebook)
+            self.tools = self.helpers_need_tools or names_tools(self.data)
             self._open()
             self.codes = self._ahead({"compile": True}) or b""
             if task is not None:
@@ -129,7 +131,7 @@ class Sandbox:
 
     def _open(self):
         """A fresh worker that holds the cells; none has run."""
-        self.worker = Worker(self.kind, self.limits, self.tools or names_tools(self.data))
+        self.worker = Worker(self.kind, self.limits, self.tools)
         parts = {"given": self.given, "codes": self.codes, "file": self.data}
         header = {"open": self.unit, **{name: len(part) for name, part in parts.items()}, "form": self.form}
         try:
@@ -141,6 +143,7 @@ class Sandbox:
                 raise Gone(clean(answer["rejected"]))
             if self.form != "cells":  # from now on the cells' source alone goes in, as the worker wrote it
                 self.data, self.form = self.worker.wire.line(LONGEST_OPEN, LONGEST_CELLS), "cells"
+                self.tools = self.helpers_need_tools or names_tools(self.data)
                 self.titles = [clean(title, 60) for title in answer["titles"]]
                 self.modes = ["whole"] * len(self.titles)
         except Gone as error:

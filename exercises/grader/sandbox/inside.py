@@ -3,8 +3,9 @@
 Messages come one a line, in JSON; bytes that belong to one follow its line. Until the first cell runs, what
 is sent back is our own word; after that it is the student's.
 
-    {"open": slug, "given": n, "codes": k, "file": m, "form": word}   n bytes of given.py's code, m of the
-                   file, and k that "compile" gave    → {"titles": [first line of each cell]} or {"rejected": why}
+    {"open": slug, "given": n, "codes": k, "file": m, "form": word}
+             n bytes of given.py's code, k that "compile" gave, m of the file
+                                         → {"titles": [first line of each cell]} or {"rejected": why}
     {"compile": true}                    → the cells' code, so that no other worker need compile it again
     {"run": [["whole" or "part" or "no", number], ...]}       → {"done": number, "error": ...} for each
     {"task": name, "extra": ...}                              → {"task": result}; before any cell runs
