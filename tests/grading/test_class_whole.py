@@ -17,7 +17,7 @@ from exercises.grader.shell import check_cells
 from tests.grading.class_support import UNIT, PlainBox, feedback, mistake, notebook, plant, solution
 
 ROOT = exercises.FOLDER.parent
-MOST_OVERHEAD = 3.0  # CPU of a submission beyond its own code, in starts of a Python with NumPy
+MOST_OVERHEAD = 1.6  # CPU of a submission beyond its own code, in starts of a Python with NumPy
 
 
 def command(*arguments, environment=(), **options):

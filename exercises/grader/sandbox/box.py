@@ -110,7 +110,7 @@ class Sandbox:
         return self._reply(self._left(seconds), visible)
 
     def _reply(self, seconds, visible):
-        """Of a hidden case it is not told how the process ended: a student's code can choose among the ways."""
+        """Of a hidden case it is not told how the process ended: a student's code can choose how."""
         try:
             data = self.worker.wire.line(seconds, self.limits.reply)
         except Gone as error:
