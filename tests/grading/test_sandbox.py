@@ -52,7 +52,9 @@ def _close_at_the_end():
 def test_the_canary_does_not_get_out(kind):
     if trouble(kind) != "ok":
         pytest.skip(f"{kind} does not work here: {trouble(kind)}")
-    assert send_canary(nursery.nursery(kind)) == []
+    for tools in (False, True):
+        assert send_canary(nursery.nursery(kind, tools)) == []
+    nursery.forget(kind, True)
 
 
 def test_without_isolation_the_canary_gets_out():

@@ -13,14 +13,14 @@ import sys
 
 MODULES = (
     "exercises", "exercises.grader.replies", "exercises.grader.cells", "exercises.grader.worker",
-    "exercises.grader.sandbox.inside", "exercises.grader.sandbox.confine",
+    "exercises.grader.sandbox.inside", "exercises.grader.sandbox.confine", "exercises.grader.sandbox.canary",
     "numpy", "numpy.random", "numpy.polynomial", "numpy.fft",
     "asyncio", "dataclasses", "typing", "functools", "itertools", "collections", "fractions", "decimal",
     "statistics", "time", "timeit", "copy", "pprint", "lzma", "bz2", "zlib",
     "ctypes", "concurrent.futures", "threading", "subprocess",
 )  # fmt: skip
 TOOLS = (
-    "exercises.grader.sandbox.canary", "numpy.testing", "unittest",
+    "numpy.testing", "unittest",
     "scipy", "scipy.linalg", "scipy.sparse", "scipy.sparse.linalg", "scipy.integrate", "scipy.optimize",
     "scipy.spatial.transform", "scipy.interpolate", "scipy.special",
     "numba", "numba.np.ufunc.parallel", "matplotlib", "matplotlib.pyplot",
