@@ -1,6 +1,7 @@
 """The shell: exit codes, odd cells, cells that hang or kill; and the same score as in a notebook."""
 
 import ast
+import inspect
 import json
 import re
 import subprocess
@@ -14,7 +15,7 @@ import exercises
 from exercises.grader import shell
 from exercises.grader.cells import Namespace, Unreadable, read_cells
 from exercises.grader.student import StudentProcess
-from tests.exercises.exercise_support import UNITS
+from tests.exercises.exercise_support import UNITS, silent
 
 UNIT = UNITS[0]
 SOLUTION = UNIT.solutions[0]
@@ -114,7 +115,7 @@ def test_our_own_fault_is_2(monkeypatch, capsys):
         ("get_ipython().run_cell_magic('time', '', 'x = 20')", "x", 20),
         (">>> x = 22\n>>> y = 4", "x", 22),
         ("  x = 23\n  y = 5", "x", 23),
-        ("x = \"\"\"\n%time 1\n!ls\n\"\"\"", "x", "\n%time 1\n!ls\n"),
+        ('x = """\n%time 1\n!ls\n"""', "x", "\n%time 1\n!ls\n"),
         ("%%javascript\nalert(1)", "x", None),
         ("", "x", None),
     ],
@@ -247,6 +248,21 @@ def test_notebook_and_shell_give_the_same_score(unit, kind, tmp_path, monkeypatc
         assert record["earned"] == (0 if kind == "starter" else record["possible"])
     else:
         assert set(record["passed"]) - in_notebook == set(unit.mistakes[-1].loses)
+
+
+@each_unit
+def test_pictures_are_drawn_for_students_alone(unit):
+    """Where a class is graded, show_… calls nothing; other helpers, and those of a notebook, stay."""
+    given = exercises.part(unit.slug, "given")
+    with silent():
+        silenced, _ = exercises.load(unit.slug)
+    pictures = [name for name in vars(given) if name.startswith("show_")]
+    for name in pictures:
+        assert getattr(silenced, name)(None, None, None) is None
+        assert exercises.load(unit.slug)[0] is given
+        with pytest.raises(TypeError):  # None cannot be called
+            getattr(given, name)(*[None] * len(inspect.signature(getattr(given, name)).parameters))
+    assert all(vars(silenced)[name] is value for name, value in vars(given).items() if name not in pictures)
 
 
 def test_check_in_a_namespace(capsys):
