@@ -20,7 +20,7 @@ import scipy.optimize
 
 from .iteration import unsuitable
 from .pivoting import begun, refined, scaled
-from .solution import finish
+from .solution import finish, solves
 from .standard import plain, why_no_plain
 
 _MOST = 2**16  # cones
@@ -89,7 +89,7 @@ def _search(problem, form, parts, groups, cones, tolerance):
             continue
         λ = refined(problem, parts.lam(z) * form.unit, parts.place(positive))
         known = (np.abs(λ - other).max(initial=0) <= _SAME * np.abs(λ).max(initial=0) for other in found)
-        if problem.residual(λ) <= tolerance and not any(known):
+        if solves(problem, λ, tolerance) and not any(known):
             found.append(λ)
         nearest = λ if problem.residual(λ) < problem.residual(nearest) else nearest
     if found:

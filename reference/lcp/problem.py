@@ -45,7 +45,7 @@ class _Problem:
             return np.inf
         return relative(self._merit(λ, w), self.scale)
 
-    hopeless = ()
+    zero_rows = ()
 
     @cached_property
     def scale(self):
@@ -91,15 +91,18 @@ class LCP(_Problem):
         return np.where(normal >= 0, -most, low), np.where(normal >= 0, most, high)
 
     @cached_property
-    def hopeless(self):
-        """A row of zeros in A whose w_i = b_i has a sign that no λ_i makes right, as an array (0 or 1,).
+    def zero_rows(self):
+        """Rows of zeros in A whose w_i = b_i has a sign (k,): whatever else, λ_i must be at one of its bounds.
 
-        There the residual has no unit to measure with, and would call it small beside large λ.
+        There the residual has no unit to measure with, and would call b_i small beside large λ.
         """
-        low, high = self.terms.lower, self.terms.upper
-        rows = np.flatnonzero(((self.b < 0) & (high == np.inf)) | ((self.b > 0) & (low == -np.inf)))
-        rows = rows[self.terms.normal[rows] < 0]
-        return rows[row_peaks(self.A, rows) == 0][:1] if len(rows) else rows
+        rows = np.flatnonzero((self.terms.d == 1) & (self.b != 0))  # 1 is also what has no other unit
+        return rows[row_peaks(self.A, rows) == 0] if len(rows) else rows
+
+    def bounds_of_zero_rows(self, λ):
+        """The bound (k,) that each of ``zero_rows`` must be at; ±inf where no λ_i is right."""
+        low, high = (bound[self.zero_rows] for bound in self.bounds(λ))
+        return np.where(self.b[self.zero_rows] > 0, low, high)
 
     def __repr__(self):
         return f"LCP of {self.n} rows, A {form(self.A)}{', with friction bounds' * self.has_friction}"
