@@ -25,7 +25,8 @@ import numpy as np
 from .. import inputs
 from ..compiled import compiled, compiled_apart
 from .iteration import unsuitable
-from .pivoting import begun, proves_infeasible, refined, scaled
+from .path_end import answer, proof
+from .pivoting import begun, scaled
 from .solution import CYCLE, MAX_ITERATIONS, RAY, SOLVED, STATUSES, finish
 from .standard import plain, why_no_plain
 from .tableau import Tableau, exchange
@@ -191,12 +192,11 @@ def _solve(problem, form, parts, c, tolerance, most, lexicographic, record):
                 seen.append(_written(parts, *path, f"pivot {done}"))
             elif every < most and code == MAX_ITERATIONS:
                 _renew(parts, c, T, basic, nonbasic)
-        λ, proof = _answer(problem, form, parts, T, basic), None
-        if code == RAY:
-            proof = _proof(problem, form, parts, *path)
-        word = "infeasible" if proof else STATUSES[code]
+        λ = answer(problem, form, parts, *path[:3])
+        proved = proof(problem, form, parts, *path[:3], at[0]) if code == RAY else None
+        word = "infeasible" if proved else STATUSES[code]
         ends = {"reason": _SAYS.get(word), "history": [1.0, 0.0] if done else [0.0]}  # the start is λ⁰
-        solution = finish(problem, λ, done, word, tolerance, certificate=proof, record=seen, **ends)
+        solution = finish(problem, λ, done, word, tolerance, certificate=proved, record=seen, **ends)
         if solution.status not in ("ray", "diverged"):
             break
     return solution
@@ -218,31 +218,6 @@ def _renew(parts, c, T, basic, nonbasic):
         return
     if np.isfinite(new).all():
         T[:] = new
-
-
-def _answer(problem, form, parts, T, basic):
-    """λ of the vertex where the path is, its equations solved afresh."""
-    m = len(basic)
-    z = np.zeros(2 * m + 1)
-    z[basic] = T[:, -1]
-    on = np.isin(np.arange(m, 2 * m), basic)
-    return refined(problem, parts.lam(z[m : 2 * m]) * form.unit, parts.place(on))
-
-
-def _proof(problem, form, parts, T, basic, nonbasic, at):
-    """What proves that there is no solution, from the direction of the ray; None where it doesn't."""
-    m, s = len(basic), at[0]
-    along = np.zeros(2 * m + 1)
-    along[basic], along[nonbasic[s]] = T[:, s], 1.0
-    z = along[m : 2 * m]
-    z[np.abs(z) <= _TINY * np.abs(along).max()] = 0
-    y = parts.multipliers(z)
-    rows, columns = parts.solved
-    if len(rows):  # those of the rows solved for follow: they make yᵀA vanish there
-        y[rows] = 0
-        y[rows] = np.linalg.solve(form.A[np.ix_(rows, columns)].T, -(y @ form.A)[columns])
-    y = y * form.weight
-    return {"y": y / np.abs(y).max()} if proves_infeasible(problem, y) else None
 
 
 def _written(parts, T, basic, nonbasic, at, note):

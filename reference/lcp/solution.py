@@ -103,7 +103,7 @@ def finish(
     if i is not None:
         words = f"Row {i} of A is 0, so w_{i} = {problem.b[i]:.3g} whatever λ is, "
         if np.isinf(bound):
-            status, certificate = "infeasible", np.sign(-problem.b[i]) * (np.arange(problem.n) == i)
+            status, certificate = "infeasible", {"y": np.sign(-problem.b[i]) * (np.arange(problem.n) == i)}
             words += f"and no λ_{i} fits that."
         else:
             status = "diverged" if believed == "solved" else believed

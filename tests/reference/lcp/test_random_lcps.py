@@ -12,7 +12,7 @@ from reference.cases.lcp_problems import LCP_PROBLEMS
 from reference.lcp import LCP, SOLVERS, STATUSES
 
 PIVOTING = "murty", "dantzig", "lemke"
-SHORT = {"min_map_newton": 30, "fischer_newton": 30}  # most solve it in 10; line searches that don't take long
+SHORT = {"min_map_newton": 20, "fischer_newton": 20}  # most solve it in 10; line searches that don't take long
 
 
 def solve_all(problem):
@@ -25,12 +25,15 @@ def judge(seed, brute_force=True):
     A, b, lower, upper, friction, kind = random_lcps.parts(seed)
     solutions = solve_all(LCP(A, b, lower, upper, friction=friction))
     status = {name: solution.status for name, solution in solutions.items()}
-    size = random_lcps.scale(A, b, lower, upper, friction)
+    size, judged = random_lcps.scale(A, b, lower, upper, friction), set()
     for name, solution in solutions.items():
         assert solution.status in STATUSES and len(solution.reason) > 30, f"seed {seed}, {name}"
         if solution.solved:
-            right = random_lcps.is_answer(A, b, lower, upper, friction, solution.lam, size=size)
-            assert right and solution.residual <= 1e-10, f"seed {seed}, {name}: λ = {solution.lam}"
+            assert solution.residual <= 1e-10, f"seed {seed}, {name}"
+            if solution.lam.tobytes() not in judged:  # several solvers often end in the same digits
+                right = random_lcps.is_answer(A, b, lower, upper, friction, solution.lam, size=size)
+                assert right, f"seed {seed}, {name}: λ = {solution.lam}"
+            judged.add(solution.lam.tobytes())
     assert not {"solved", "infeasible"} <= set(status.values()), f"seed {seed}: {status}"
     if brute_force and {"solved", "infeasible"} & set(status.values()):
         found = random_lcps.solvable(A, b, lower, upper, friction)
@@ -60,7 +63,7 @@ def check_proofs(seed, solutions, A, b, lower, upper, friction):
     for name, solution in solutions.items():
         if solution.status != "infeasible":
             continue
-        if name == "enumeration":
+        if "M" in solution.certificate:
             check_planes(seed, solution.certificate)
         elif friction is None:
             assert random_lcps.nothing_feasible(A, b, lower, upper), f"seed {seed}, {name}: {solution.lam}"
