@@ -132,22 +132,22 @@ def solvable(A, b, lower, upper, friction):
     """Whether there is a solution, found by linear programs (HiGHS): one for each choice of a piece a row.
 
     A row is at its lower bound with w ≥ 0, at its upper with w ≤ 0, or between them with w = 0. Friction
-    bounds are ±μ λ_n where λ_n ≥ 0, and 0 else: two sets of programs where λ_n may have either sign. Unlike an
-    enumeration of isolated solutions this sees whole lines of them, too. λ and w are in units in which A, b
-    and the bounds are about 1, since HiGHS takes less than 1e-7 for 0.
+    bounds are ±μ λ_n where λ_n ≥ 0, and 0 else: two sets of programs. Unlike an enumeration of isolated
+    solutions this sees whole lines of them, too. λ and w are in units in which A, b and the bounds are
+    about 1, since HiGHS takes less than 1e-7 for 0.
     """
     A, b, lower, upper = _of_one(A, b, lower, upper)
     n = len(b)
     low = [(np.zeros(n), l) for l in lower]  # bounds as a·λ + c
     high = [(np.zeros(n), u) for u in upper]
-    cases = [(low, high, [(None, None)] * n)]
+    anywhere = [(None, None)] * n
+    cases = [(low, high, anywhere)]
     if friction is not None:
         (t,), (k,), μ = friction
-        moving = μ * np.eye(n)[k]
-        cases = [
-            (_with(low, t, (-moving, 0.0)), _with(high, t, (moving, 0.0)), _with([(None, None)] * n, k, (0, None))),
-            (_with(low, t, (0 * moving, 0.0)), _with(high, t, (0 * moving, 0.0)), _with([(None, None)] * n, k, (None, 0))),
-        ]  # fmt: skip
+        cases = []
+        for moving, side in ((μ * np.eye(n)[k], (0, None)), (np.zeros(n), (None, 0))):
+            bounds = _with(low, t, (-moving, 0.0)), _with(high, t, (moving, 0.0))
+            cases.append((*bounds, _with(anywhere, k, side)))
     for low, high, range_ in cases:
         pieces = [
             ["w", *("l" * bool(np.isfinite(l[1]))), *("u" * bool(np.isfinite(u[1])))]

@@ -23,15 +23,14 @@ Stone, The Linear Complementarity Problem (2009), sections 4.4 and 4.9.
 import numpy as np
 
 from .. import inputs
-from ..compiled import compiled, compiled_apart
 from .iteration import unsuitable
+from .lemke_path import follow_path, straight
 from .path_end import answer, proof
 from .pivoting import begun, scaled
-from .solution import CYCLE, MAX_ITERATIONS, RAY, SOLVED, STATUSES, finish
+from .solution import MAX_ITERATIONS, RAY, SOLVED, STATUSES, finish
 from .standard import plain, why_no_plain
-from .tableau import Tableau, exchange
+from .tableau import Tableau
 
-_TINY, _TIE = 1e-11, 1e-12
 _SAYS = {
     "ray": "Lemke's path ran off along a ray: z₀ can't be brought to 0 from this covering vector. A is not "
     "copositive-plus, so that proves nothing: there may be a solution elsewhere.",
@@ -40,101 +39,6 @@ _SAYS = {
     "cycle": "The path came back to a vertex where it had been: ties broken by the first index lead round in "
     "a circle. Take ties='lexicographic'.",
 }
-
-
-@compiled_apart
-def follow_path(T, basic, nonbasic, at, most, lexicographic, saved):
-    """Pivot along the path until z₀ leaves; returns (pivots, code).
-
-    T (m, m + 2): columns of the nonbasic unknowns, then constants. basic (m,), nonbasic (m + 1,): i is w_i,
-    m + i is z_i, 2m is z₀. at (3,): the entering column, then as in ``principal.came_back``. saved (m,).
-    """
-    m = len(basic)
-    for k in range(most):
-        s = at[0]
-        r = first_row(T, s, lexicographic) if nonbasic[s] == 2 * m else -1
-        if r < 0:
-            r = leaving_row(T, basic, nonbasic, s, lexicographic)
-        if r < 0:
-            return k, RAY
-        exchange(T, r, s)
-        left = basic[r]
-        basic[r], nonbasic[s] = nonbasic[s], left
-        if left == 2 * m:
-            return k + 1, SOLVED
-        partner = left + m if left < m else left - m
-        for j in range(m + 1):
-            if nonbasic[j] == partner:
-                at[0] = j
-        same = True
-        for i in range(m):
-            same = same and saved[i] == basic[i]
-        if same:
-            return k + 1, CYCLE
-        at[1] += 1
-        if at[1] >= at[2]:
-            at[1], at[2] = 0, 2 * at[2]
-            saved[:] = basic
-    return most, MAX_ITERATIONS
-
-
-@compiled
-def first_row(T, s, lexicographic):
-    """The row that leaves when z₀ enters, in column s: the last to become right as z₀ grows."""
-    row, least = -1, 0.0
-    for i in range(len(T)):
-        if T[i, s] > 0:
-            ratio = T[i, -1] / T[i, s]
-            if ratio < least or (ratio == least < 0 and lexicographic):
-                row, least = i, ratio
-    return row
-
-
-@compiled_apart
-def leaving_row(T, basic, nonbasic, s, lexicographic):
-    """The row whose unknown is the first to become 0 as that of column s grows from 0; −1 if none is.
-
-    A tie goes to z₀; then to the lexicographically least row, or to the first.
-    """
-    m = len(basic)
-    largest, top = 0.0, 0.0
-    for i in range(m):
-        largest, top = max(largest, abs(T[i, s])), max(top, abs(T[i, m + 1]))
-    tiny, least = _TINY * largest, np.inf
-    for i in range(m):
-        if T[i, s] < -tiny:
-            least = min(least, max(T[i, m + 1], 0.0) / -T[i, s])
-    row = -1
-    for i in range(m):
-        q = max(T[i, m + 1], 0.0)
-        if T[i, s] < -tiny and q + T[i, s] * least <= _TIE * q + 1e-15 * top:
-            if basic[i] == 2 * m:
-                return i
-            if row < 0 or (lexicographic and before(T, basic, nonbasic, s, i, row)):
-                row = i
-    return row
-
-
-@compiled_apart
-def before(T, basic, nonbasic, s, i, r):
-    """Whether row i comes before row r in the lexicographic order of their ratios.
-
-    With q + (ε, ε², …) in place of q, a row's value gets ε^k times its number in column k of the inverse of
-    the basis: 1 where w_k is its own unknown, − the tableau's number where w_k is nonbasic.
-    """
-    m = len(basic)
-    column = np.full(m, -1)
-    for j in range(m + 1):
-        if nonbasic[j] < m:
-            column[nonbasic[j]] = j
-    for k in range(m):
-        of_i, of_r = 1.0 if basic[i] == k else 0.0, 1.0 if basic[r] == k else 0.0
-        if column[k] >= 0:
-            of_i, of_r = -T[i, column[k]], -T[r, column[k]]
-        of_i, of_r = of_i / -T[i, s], of_r / -T[r, s]
-        if abs(of_i - of_r) > _TIE * max(abs(of_i), abs(of_r)):
-            return of_i < of_r
-    return False
 
 
 def lemke(
@@ -162,15 +66,21 @@ def lemke(
         raise ValueError(f"cover must be at least 0, but holds {c.min():g}")
     if solution:
         return solution
+    if problem.is_plain and isinstance(problem.A, np.ndarray) and cover is None and not record:
+        λ, done, code = straight(problem.A, problem.b, most, ties == "lexicographic")
+        if code == SOLVED:
+            solution = finish(problem, λ, done, code, tolerance, history=[1.0, 0.0] if done else [0.0])
+            if solution.solved:
+                return solution
     form = scaled(problem)
     reason = why_no_plain(form)
     if reason:
         return unsuitable(problem, λ, tolerance, reason)
     parts = plain(form)
     c = np.where(parts.kind == 1, 1.0, (c * (form.weight / form.weight.max()))[parts.row])
-    bare = np.flatnonzero((c == 0) & (parts.q < 0))
-    if len(bare):
-        i = parts.row[bare[0]]
+    uncovered = np.flatnonzero((c == 0) & (parts.q < 0))
+    if len(uncovered):
+        i = parts.row[uncovered[0]]
         raise ValueError(f"cover must be positive where w is wrong at λ⁰, but is 0 in row {i}")
     return _solve(problem, form, parts, c, tolerance, most, ties == "lexicographic", record)
 

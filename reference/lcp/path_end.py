@@ -1,12 +1,12 @@
-"""Where Lemke's path ends: λ of the vertex, made accurate; or a ray, and whether its direction proves something.
+"""Where Lemke's path ends: λ of the vertex, made accurate; or a ray, and what its direction proves.
 
-The tableau gathers rounding with each pivot. But it holds the inverse of the very equations that λ must solve:
-its numbers in the rows of the z that are basic and the columns of the w that are not say how z moves with w.
-So what w is still off by, measured from A and b themselves, tells how to mend λ, in n² operations and not the
-n³ of a fresh solve (iterative refinement). Where that isn't enough, the equations are solved afresh.
+The tableau gathers rounding with each pivot. But it holds the inverse of the very equations that λ must
+solve: its numbers in the rows of the z that are basic and the columns of the w that are not say how z moves
+with w. So what w is still off by, measured from A and b themselves, tells how to mend λ, in n² operations
+and not the n³ of a fresh solve (iterative refinement). Where that isn't enough, they are solved afresh.
 
-Slides S13, S14; lectures/06_pivoting_lcp.md. Source: Wilkinson, Rounding Errors in Algebraic Processes (1963),
-chapter 3, for iterative refinement.
+Slides S13, S14; lectures/06_pivoting_lcp.md. Source: Wilkinson, Rounding Errors in Algebraic Processes
+(1963), chapter 3, for iterative refinement.
 """
 
 import numpy as np
@@ -19,23 +19,27 @@ _TINY, _ENOUGH = 1e-11, 1e-13
 
 @compiled
 def vertex(T, basic, nonbasic, A, b, unit, weight):
-    """λ (n,) of a plain problem's tableau, mended twice by what its w = A λ + b, dense, is off by.
+    """λ (n,) of a plain problem's tableau, mended by what its w = A λ + b, dense, is off by.
 
     T (n, n + 2), basic (n,), nonbasic (n + 1,): as in ``follow_path``; unit, weight (n,): as in ``Scaled``.
     """
     n = len(b)
-    λ, off = np.zeros(n), np.zeros(n + 1)
+    λ, off = np.zeros(n), np.zeros(n + 2)
     for k in range(n):
         if n <= basic[k] < 2 * n:
             λ[basic[k] - n] = max(T[k, n + 1], 0.0) * unit[basic[k] - n]
     for _ in range(2):
+        w, changed, largest = np.dot(A, λ) + b, 0.0, 0.0
         for j in range(n + 1):
-            i = nonbasic[j]
-            off[j] = weight[i] * (np.dot(A[i], λ) + b[i]) if i < n else 0.0
+            off[j] = weight[nonbasic[j]] * w[nonbasic[j]] if nonbasic[j] < n else 0.0
+        change = np.dot(T, off)
         for k in range(n):
             i = basic[k] - n
             if 0 <= i < n:
-                λ[i] = max(λ[i] - unit[i] * np.dot(T[k, : n + 1], off), 0.0)
+                λ[i] = max(λ[i] - unit[i] * change[k], 0.0)
+                changed, largest = max(changed, abs(unit[i] * change[k])), max(largest, λ[i])
+        if changed <= 1e-9 * largest:  # what is left of an error shrinks by as much again: 1e-18
+            break
     return λ
 
 

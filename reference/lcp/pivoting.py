@@ -17,10 +17,8 @@ Complementarity Problem (2009), section 2.7 (Farkas).
 from typing import NamedTuple
 
 import numpy as np
-import scipy.sparse
 
 from ..compiled import compiled
-from ..factored import Factored
 from .iteration import checked, solved_already, unsuitable
 from .problem import LCP
 
@@ -101,12 +99,7 @@ def equilibrated(A):
     n, size = len(A), np.abs(A)
     row, column = np.ones(n), np.ones(n)
     for _ in range(3):
-        by_row, by_column = np.zeros(n), np.zeros(n)
-        for i in range(n):
-            largest = 0.0
-            for j in range(n):
-                largest, by_column[j] = max(largest, size[i, j]), max(by_column[j], size[i, j])
-            by_row[i] = largest
+        by_row, by_column = peaks(size)
         if near_one(by_row) and near_one(by_column):
             break
         for i in range(n):
@@ -119,12 +112,30 @@ def equilibrated(A):
 
 
 @compiled
-def near_one(peaks):
+def peaks(size):
+    """(by_row, by_column): the largest of each row and column of size (n, n) ≥ 0.
+
+    Read as whole numbers, the bits of such doubles have the same order; and of whole numbers, none of which
+    can be NaN, a compiler may compare several at once.
+    """
+    n, bits = len(size), size.view(np.int64)
+    by_row, by_column = np.zeros(n, np.int64), np.zeros(n, np.int64)
+    for i in range(n):
+        largest = np.int64(0)
+        for j in range(n):
+            largest = max(largest, bits[i, j])
+            by_column[j] = max(by_column[j], bits[i, j])
+        by_row[i] = largest
+    return by_row.view(np.float64), by_column.view(np.float64)
+
+
+@compiled
+def near_one(largest):
     """Whether all numbers (n,) but zeros are near 1."""
-    for peak in peaks:
-        if peak > 0 and not 0.49 < peak < 2.1:
-            return False
-    return True
+    fine = True
+    for peak in largest:
+        fine = fine and (peak == 0 or 0.49 < peak < 2.1)
+    return fine
 
 
 def refined(problem, λ, place):

@@ -79,17 +79,21 @@ class LCP(_Problem):
         self.has_friction = friction is not None and bool((normal >= 0).any())
         if self.has_friction:
             low[normal >= 0], high[normal >= 0] = -np.inf, np.inf
+        # Whether it only asks λ ≥ 0, w ≥ 0, λᵀw = 0
+        self.is_plain = (lower is None and upper is None and friction is None) or not (
+            self.has_friction or low.any() or (high < np.inf).any()
+        )
         d, empty = row_scales(self.A)
         self.terms = Terms(self.b, d, low, high, normal, μ)
         self.lower, self.upper = low, high
-        # Rows of zeros in A whose w_i = b_i has a sign: whatever else, λ_i must be at one of its bounds. There
-        # the residual has no unit to measure with, and would call b_i small beside large λ.
+        # Rows of zeros in A whose w_i = b_i has a sign: whatever else, λ_i must be at one of its bounds.
+        # There the residual has no unit to measure with, and would call b_i small beside large λ.
         self.zero_rows = empty[self.b[empty] != 0]
 
     @cached_property
     def origin(self):
         """λ⁰ = clip(0, lower, upper) (n,)."""
-        return np.clip(0.0, self.lower, self.upper)
+        return np.minimum(np.maximum(0.0, self.lower), self.upper)
 
     def bounds(self, λ):
         """(lower, upper), each (n,), at this λ: friction rows have ±μ λ_n."""
@@ -152,8 +156,8 @@ def form(A):
 
 
 def row_scales(A, size=1):
-    """(d, empty): d, one for each block of ``size`` rows: its largest A_ii if that is positive, else its largest
-    |A_ij|, else 1; empty (k,): the blocks where it is that 1.
+    """(d, empty): d, one for each block of ``size`` rows: its largest A_ii if that is positive, else its
+    largest |A_ij|, else 1; empty (k,): the blocks where it is that 1.
     """
     d = A.diagonal().astype(float)
     d = d if size == 1 else d.reshape(-1, size).max(axis=1, initial=-np.inf)

@@ -61,7 +61,7 @@ class Solution:
 
 
 def misplaced(problem, λ, tolerance):
-    """(i, its bound): a row of zeros in A whose λ_i isn't where alone it may be; (None, 0) where there is none.
+    """(i, its bound): a row of zeros in A whose λ_i isn't where alone it may be; (None, 0) where none is.
 
     The residual doesn't see it: what w_i comes to has no unit there.
     """

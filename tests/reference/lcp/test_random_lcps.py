@@ -12,7 +12,10 @@ from reference.cases.lcp_problems import LCP_PROBLEMS
 from reference.lcp import LCP, SOLVERS, STATUSES
 
 PIVOTING = "murty", "dantzig", "lemke"
-SHORT = {"min_map_newton": 20, "fischer_newton": 20}  # most solve it in 10; line searches that don't take long
+SHORT = {
+    "min_map_newton": 20,
+    "fischer_newton": 20,
+}  # most solve it in 10; line searches that don't take long
 
 
 def solve_all(problem):
@@ -59,7 +62,7 @@ def check_unique(seed, solutions, A, b, lower, upper):
 
 
 def check_proofs(seed, solutions, A, b, lower, upper, friction):
-    """Certificates prove what they say: by planes for each cone; else by a linear program, where it is one."""
+    """Certificates prove what they say: by planes for each cone, or by a linear program."""
     for name, solution in solutions.items():
         if solution.status != "infeasible":
             continue
