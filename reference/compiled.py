@@ -148,8 +148,8 @@ def _same(code, other):
 def _in_its_file(function):
     """Whether the file, compiled as a whole, has this function's code at its place.
 
-    Compiled from its own lines alone it may differ: Python calls ``np.zeros`` in another way where it sees, at
-    the top of what it compiles, that np was imported. (A notebook's statements are compiled one by one.)
+    Compiled from its own lines alone it may differ: Python calls ``np.zeros`` in another way where it sees,
+    at the top of what it compiles, that np was imported. (A notebook's statements are compiled one by one.)
     """
     code, found = function.__code__, [compile("".join(inspect.findsource(function)[0]), "<source>", "exec")]
     for some in found:  # grows: code within code

@@ -25,6 +25,7 @@ from .standard import plain, why_no_plain
 
 _MOST = 2**16  # cones
 _OFF, _NEAR, _SAME = 1e-9, 1e-6, 1e-8  # surely apart; worth a look; the same solution
+_NOISE = 1e-15
 _FLAT = 1e10  # what the inverse may grow to before a cone is taken for flat
 _FOUND = "λ solves the problem. All {cones} cones were tried: {words}"
 _NONE = (
@@ -127,6 +128,7 @@ def in_cone(M, q, positive):
         except RuntimeError:  # it found no end
             return None, None
         y = C @ sides - q
+        y[np.abs(y) <= _NOISE * (np.abs(C) @ sides + np.abs(q))] = 0  # rounding of what should cancel
     off = np.abs(y) @ np.abs(q) + 1e-300
     apart = y @ q < -_OFF * off and (y @ C).min() >= -_OFF * np.abs(y).max()
     near = (
