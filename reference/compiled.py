@@ -123,8 +123,12 @@ def _bind_compiled(function, *functions):
     tree = ast.parse(textwrap.dedent(inspect.getsource(source)))
     ast.increment_lineno(tree, source.__code__.co_firstlineno - 1)  # so that a traceback shows the right line
     definition = tree.body[0]
+    if not isinstance(definition, ast.FunctionDef) or definition.name != source.__name__:
+        raise _edited(source)
     definition.decorator_list.clear()
-    _check_unedited(source, _defined(tree, definition, source.__globals__))
+    alone = _defined(tree, definition, source.__globals__)
+    if not (_same(source.__code__, alone.__code__) or _in_its_file(source)):
+        raise _edited(source)
     fixed = [argument.arg for argument in definition.args.args[: len(functions)]]
     del definition.args.args[: len(functions)]
     # Numba's cache goes by name, not by the globals: another function bound must give another name
@@ -136,6 +140,25 @@ def _bind_compiled(function, *functions):
     return _compile(_defined(tree, definition, names, source.__code__.co_filename), *functions, **options)
 
 
+def _same(code, other):
+    parts = "co_name", "co_code", "co_consts", "co_names", "co_varnames"
+    return all(getattr(code, part) == getattr(other, part) for part in parts)
+
+
+def _in_its_file(function):
+    """Whether the file, compiled as a whole, has this function's code at its place.
+
+    Compiled from its own lines alone it may differ: Python calls ``np.zeros`` in another way where it sees,
+    at the top of what it compiles, that np was imported. (A notebook's statements are compiled one by one.)
+    """
+    code, found = function.__code__, [compile("".join(inspect.findsource(function)[0]), "<source>", "exec")]
+    for some in found:  # grows: code within code
+        if some.co_firstlineno == code.co_firstlineno and _same(code, some):
+            return True
+        found += filter(inspect.iscode, some.co_consts)
+    return False
+
+
 def _defined(tree, definition, names, file="<source>"):
     """The function that a tree defines, with these global names."""
     names = dict(names)
@@ -143,11 +166,8 @@ def _defined(tree, definition, names, file="<source>"):
     return names[definition.name]
 
 
-def _check_unedited(function, in_file):
-    """RuntimeError where the file no longer says what was imported from it."""
-    parts = "co_name", "co_code", "co_consts", "co_names", "co_varnames"
-    if any(getattr(function.__code__, part) != getattr(in_file.__code__, part) for part in parts):
-        raise RuntimeError(
-            f"{function.__code__.co_filename} was edited after it was imported: restart Python (in Jupyter: "
-            f"Kernel → Restart), so that {function.__name__} is what the file says"
-        )
+def _edited(function):
+    return RuntimeError(
+        f"{function.__code__.co_filename} was edited after it was imported: restart Python (in Jupyter: "
+        f"Kernel → Restart), so that {function.__name__} is what the file says"
+    )
