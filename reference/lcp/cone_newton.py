@@ -21,7 +21,8 @@ Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 import numpy as np
 
 from ..compiled import compiled, compiled_apart
-from .augmented import ContactRows, evaluate, inner, make_pass
+from .augmented import ContactRows, inner, make_pass
+from .cone_interior import start_inside
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
 from .smooth_pass import make_factor, solve_smooth
@@ -32,6 +33,7 @@ from .velocity_form import velocity_form
 __all__ = ["ContactRows", "cone_newton", "cone_newton_kernel"]
 
 NEAR, SMALLEST = 1e-6, 1e-10  # ε at first, and where passes shrink the error too slowly
+FEW, MANY, FROM_INSIDE = 12, 50, 1e-4  # Newton steps in a pass; ε after more than a few of them
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # w's rounding makes 1e-16/ε in λ: to polish, a larger ε
 
 
@@ -54,14 +56,16 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
     add_impulses(rows, M, λ, u)
     answer = np.zeros((blocks, 2))
     if coulomb:
-        evaluate(rows, M, free, λ, np.ones(blocks), shift, u, out)
-        renew_shift(rows, out.w, shift, answer)
-        answer[:, 0], answer[:, 1] = np.inf, 0.0
-    ε, error, drift = near, np.inf, np.inf
+        begin_shift(rows, u, shift, answer)
+    ε, error, drift, most = near, np.inf, np.inf, FEW
     for passes in range(max_iterations):
-        for q in range(blocks):
-            ρ[q] = 1 / (ε * size[q])
-        solve_smooth(rows, M, free, λ, ρ, shift, factor, u, 0.1 * tolerance * scale, out, trial)
+        steps = solve_smooth(rows, M, free, λ, weigh(ε, size, ρ), shift, factor, u, 0.1 * tolerance * scale, out, trial, most)
+        if steps == most == FEW:  # too many states to try one after another: come from inside the cones
+            start_inside(rows, M, free, λ, u, size, scale, factor, out)
+            if coulomb:
+                begin_shift(rows, u, shift, answer)
+            ε, drift, most = FROM_INSIDE, np.inf, MANY
+            solve_smooth(rows, M, free, λ, weigh(ε, size, ρ), shift, factor, u, 0.1 * tolerance * scale, out, trial, most)
         before, drift = drift, renew(rows, out, λ, ρ) / scale
         shifted = renew_shift(rows, out.w, shift, answer) / scale if coulomb else 0.0
         error = max(drift, shifted)
@@ -69,7 +73,7 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
             history[passes] = error
         if error <= tolerance:
             return u, passes + 1, error
-        if drift > max(0.25 * before, shifted) and ε > SMALLEST:
+        if drift > max(0.25 * before, shifted) and ε > SMALLEST and most == FEW:
             ε *= 0.01
             factor.made[:] = -1
     return u, max_iterations, error
@@ -134,6 +138,31 @@ def renew(rows, out, λ, ρ):
             worst = max(worst, abs(out.λ[r] - λ[r]) / ρ[q])
             λ[r] = out.λ[r]
     return worst
+
+
+@compiled
+def weigh(ε, size, ρ):
+    """ρ (B,), filled: 1/ε over A's entries."""
+    for q in range(len(size)):
+        ρ[q] = 1 / (ε * size[q])
+    return ρ
+
+
+@compiled_apart
+def begin_shift(rows, u, shift, answer):
+    """The shift that belongs to u, and an ``answer`` that knows of nothing before it."""
+    answer[:] = 0
+    for q in range(len(shift)):
+        along = 0.0
+        for r in range(rows.block[q] + 1, rows.block[q + 1]):
+            w = rows.c[r]
+            for side in range(2):
+                i = rows.bodies[r, side]
+                if i >= 0:
+                    w += inner(rows.J[r, side], u[i])
+            along += w * w
+        shift[q] = max(rows.μ[q], 0.0) * np.sqrt(along)
+        answer[q, 0] = np.inf
 
 
 @compiled

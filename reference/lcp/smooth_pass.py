@@ -13,40 +13,41 @@ import numpy as np
 
 from ..compiled import compiled, compiled_apart
 from .augmented import OPEN, SLIDES, evaluate, inner
-from .envelope import Envelope, add_block, cholesky_in_envelope, make_envelope, solve_in_envelope
+from .block_cholesky import BlockFactor, add_block, factorise, make_block_factor, solve
 
-MOST_NEWTON, MOST_HALVINGS = 50, 30
+MOST_HALVINGS = 30
 
 
 class Factor(NamedTuple):
     """The matrix's factor, and for which states it was made."""
 
-    envelope: Envelope
-    L: np.ndarray
+    blocks: BlockFactor
     made: np.ndarray  # (B,)
 
 
 @compiled
 def make_factor(rows, n, k):
     """Room for the factor; made for no states yet."""
-    envelope = make_envelope(rows.bodies, n, k)
-    return Factor(envelope, np.empty(envelope.start[-1]), np.full(len(rows.μ), -1))
+    return Factor(make_block_factor(rows.bodies, n, k), np.full(len(rows.μ), -1))
 
 
 @compiled_apart
-def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial):
-    """Newton's method for one pass, with step halving: u in place, what ``evaluate`` finds there in out."""
+def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial, most):
+    """Newton's method for one pass, with step halving: u in place, what ``evaluate`` finds there in out.
+
+    Returns how many steps it took: ``most`` if they were not enough.
+    """
     value = evaluate(rows, M, free, λ, ρ, shift, u, out)
     move, tried = np.empty_like(u), np.empty_like(u)
     rest, before, whole = worst_rate(M, out.gradient), np.inf, False
-    for _ in range(MOST_NEWTON):
+    for step in range(most):
         fresh = stands_for(rows, factor.made, out.state)
         if rest <= tolerance or (whole and fresh and rest > 0.5 * before):  # good, or as rounding lets it be
-            return
+            return step
         if not fresh:
             fill_matrix(rows, M, ρ, out, factor)
-            cholesky_in_envelope(factor.envelope, factor.L)
-        solve_in_envelope(factor.envelope, factor.L, out.gradient, move)
+            factorise(factor.blocks)
+        solve(factor.blocks, out.gradient, move)
         downhill, length, new = 0.0, 1.0, np.inf
         for i in range(len(u)):
             downhill -= inner(out.gradient[i], move[i])
@@ -62,6 +63,7 @@ def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial)
         u[:], out.w[:], out.λ[:], out.slope[:] = tried, trial.w, trial.λ, trial.slope
         out.state[:], out.gradient[:] = trial.state, trial.gradient
         rest = worst_rate(M, out.gradient)
+    return most
 
 
 @compiled
@@ -87,15 +89,12 @@ def worst_rate(M, gradient):
 @compiled_apart
 def fill_matrix(rows, M, ρ, out, factor):
     """M + ρ Jᵀ P′ J, block by block."""
-    k, envelope, L = M.shape[1], factor.envelope, factor.L
-    L[:] = 0
+    k = M.shape[1]
+    factor.blocks.diagonal[:], factor.blocks.below[:] = 0, 0
     factor.made[:] = out.state
-    unit, weighted = np.zeros(k), np.empty(k)
+    weighted = np.empty(k)
     for i in range(len(M)):
-        for a in range(k):
-            unit[a] = 1.0
-            add_block(envelope, L, i, i, k, unit, M[i, a], 1.0)
-            unit[a] = 0.0
+        factor.blocks.diagonal[factor.blocks.pattern.place[i]] = M[i]
     for q in range(len(rows.μ)):
         if out.state[q] == OPEN:
             continue
@@ -112,4 +111,4 @@ def fill_matrix(rows, M, ρ, out, factor):
                 for other in range(2):
                     j = rows.bodies[r, other]
                     if j >= 0:
-                        add_block(envelope, L, i, j, k, weighted, rows.J[r, other], ρ[q])
+                        add_block(factor.blocks, i, j, weighted, rows.J[r, other], ρ[q])
