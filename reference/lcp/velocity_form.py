@@ -21,7 +21,7 @@ def velocity_form(problem):
     parts = None
     if isinstance(problem.A, Factored) and problem.A.bodies.shape[1] <= 2 and not problem.A.softness.any():
         parts = _as_it_is(problem.A)
-    parts = parts or _one_body(problem.A)
+    parts = parts or one_body(problem.A)
     if parts is None:
         return None
     bodies, J, M = parts
@@ -59,7 +59,7 @@ def _diagonal_masses(A):
     return np.eye(inverse.shape[1]) / inverse[:, None, :]
 
 
-def _one_body(A):
+def one_body(A):
     """(bodies, J, M) with J Jᵀ = A and M = 1; None where A has a negative eigenvalue."""
     A = formed(A)
     A = A if isinstance(A, np.ndarray) else A.toarray()

@@ -61,6 +61,14 @@ class Held:
         lower, upper = (np.where(self.motor, 0.0, bound) for bound in (self.lower, self.upper))
         return np.where(self.motor, 0.0, self.φ), lower, upper
 
+    def error(self):
+        """What a correction has to take back: φ of what holds, and of limits that are passed; else 0."""
+        return np.where(self.rigid, self.φ, np.where(self.limit, np.minimum(self.φ, 0.0), 0.0))
+
+    def closed(self):
+        """(m,): which rows hold: joints, and limits that are reached."""
+        return self.rigid | (self.limit & (self.φ <= 0))
+
     def gap(self):
         """What is left of a limit, to be used up; inf for what has none."""
         return np.where(self.limit, self.φ, np.inf)

@@ -7,22 +7,29 @@ from dataclasses import asdict, dataclass, fields, replace
 
 from .. import inputs
 from ..compiled import COMPILED
+from ..correction import CORRECTIONS
 from ..integrators import INTEGRATORS
+from ..lcp import SOLVERS
 from ..multipliers import MULTIPLIERS
 from ..scene import Unsupported
+from .fixed_step import FixedStep
 from .impacts import IMPACTS
 from .smooth import Smooth
+from .solving import DEFAULT_SOLVERS, why_unfit
 from .velocity_lcp import VelocityLCP
 
-SIMULATORS = {"smooth": Smooth, "velocity_lcp": VelocityLCP}
+
+def with_contact(scene, bodies, settings):
+    """The velocity-based simulator: from impact to impact, or with S9's fixed step if another correction is
+    asked for than the projection.
+    """
+    made = VelocityLCP if settings.correction[0] == "projection" else FixedStep
+    return made(scene, bodies, settings)
+
+
+SIMULATORS = {"smooth": Smooth, "velocity_lcp": with_contact}
 FAMILIES = ("penalty", "impulse", "acceleration_lcp", "velocity_lcp", "reduced", "smooth")  # of S3
 FOR_CONTACT = ("friction", "impact", "correction")
-CONTACT_CHOICES = {  # what contact can be computed with so far
-    "solver": ("cone_newton",),
-    "friction": ("cone",),
-    "impact": tuple(law for law in IMPACTS if law),
-    "correction": ("projection",),
-}
 
 
 @dataclass(frozen=True)
@@ -33,8 +40,9 @@ class Settings:
     ``INTEGRATORS``, for smooth motion. iterations, tolerance: limits of an implicit integrator's own
     Newton iteration, or of the contact solver's passes. substeps: steps of dt/substeps for each dt.
     record_every: a record each so many dt, and always at the end. solver: of the joints' λ, a name in
-    ``MULTIPLIERS``, or of the contacts'. friction, impact, correction, warm_start, record_contacts: for
-    contact; seed: for what is drawn at random.
+    ``MULTIPLIERS``, or of the contacts', a name in ``lcp.SOLVERS``. friction: "cone", "box" or "pyramid"
+    (``solving``). correction: a name in ``CORRECTIONS``, or (name, {parameter: value}). impact, warm_start,
+    record_contacts: for contact; seed: for what is drawn at random.
     """
 
     simulator: str | None = None
@@ -42,7 +50,7 @@ class Settings:
     integrator: str | None = None
     friction: str | None = None
     impact: str | None = None
-    correction: str | None = None
+    correction: str | tuple | None = None
     iterations: int | None = None
     tolerance: float | None = None
     substeps: int = 1
@@ -81,27 +89,38 @@ class Settings:
             substeps=inputs.whole("substeps", given.substeps, least=1),
             record_every=inputs.whole("record_every", given.record_every, least=1),
         )
-        return given.for_contact() if simulator == "velocity_lcp" else given.for_smooth(needs)
+        return given.for_contact(needs) if simulator == "velocity_lcp" else given.for_smooth(needs)
 
-    def for_contact(self):
+    def for_contact(self, needs):
         """These settings filled in for contact."""
         if self.integrator is not None:
             raise Unsupported(
                 f"integrator={self.integrator!r} has no effect under 'velocity_lcp', which steps by itself"
             )
-        chosen = {}
-        for name, known in CONTACT_CHOICES.items():
-            value = getattr(self, name)
-            if value is not None and value not in known:
-                raise Unsupported(
-                    f"{name}={value!r} is not part of the course yet: there is {', '.join(known)}"
-                )
-            chosen[name] = value if name == "impact" else known[0]
+        friction = inputs.choice("friction", self.friction or "cone", DEFAULT_SOLVERS)
+        solver = inputs.choice("solver", self.solver or DEFAULT_SOLVERS[friction], SOLVERS)
+        newton = solver == "cone_newton"
+        reason = "" if newton and friction == "cone" else why_unfit(solver, friction, needs.rows > 0)
+        if reason:
+            raise Unsupported(
+                f"solver={solver!r} can't treat friction={friction!r}"
+                f"{' beside joints' if needs.rows else ''}: {reason}"
+            )
+        if self.impact is not None:
+            inputs.choice("impact", self.impact, [law for law in IMPACTS if law])
+        name, parameters = checked_correction(self.correction)
+        if name != "projection" and self.impact not in (None, "newton"):
+            raise Unsupported(
+                f"impact={self.impact!r} can't go with correction={name!r}: its step has one solve, and "
+                "knows Newton's law only"
+            )
         return replace(
             self,
-            **chosen,
-            iterations=self._iterations(100),
-            tolerance=1e-12
+            friction=friction,
+            solver=solver,
+            correction=(name, parameters),
+            iterations=self._iterations(100 if newton else 1000),
+            tolerance=(1e-12 if newton else 1e-10)
             if self.tolerance is None
             else inputs.number("tolerance", self.tolerance, above=0),
         )
@@ -137,4 +156,30 @@ class Settings:
         """What a Trajectory tells: the settings that had an effect, dt, whether loops are compiled."""
         without = ("integrator",) if self.simulator == "velocity_lcp" else FOR_CONTACT
         shown = {name: value for name, value in asdict(self).items() if name not in without}
+        if "correction" in shown:
+            shown["correction"], shown["correction_parameters"] = self.correction
         return {**shown, "dt": dt, "compiled": COMPILED and not user_forces}
+
+
+def checked_correction(given):
+    """(name, parameters) of a correction: None, a name, or a name with some of its parameters.
+
+    Raises ValueError or TypeError, which name the argument.
+    """
+    name, changed = given if isinstance(given, tuple) and len(given) == 2 else (given, {})
+    name = inputs.choice("correction", "projection" if name is None else name, CORRECTIONS)
+    parameters = dict(CORRECTIONS[name])
+    if not isinstance(changed, dict):
+        raise TypeError(f"correction must be a name, or (name, {{parameter: value}}), but is {given!r}")
+    for parameter, value in changed.items():
+        if parameter not in parameters:
+            there = ", ".join(parameters) or "none"
+            raise ValueError(f"correction={name!r} has no parameter {parameter!r}: there is {there}")
+        what = f"correction's {parameter}"
+        if parameter == "sweeps":
+            parameters[parameter] = inputs.whole(what, value, least=1)
+        elif parameter == "frequency":
+            parameters[parameter] = inputs.number(what, value, above=0)
+        else:
+            parameters[parameter] = inputs.number(what, value, least=0)
+    return name, parameters

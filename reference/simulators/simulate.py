@@ -85,7 +85,8 @@ class Simulation:
         record[0] = self._family.state.y
         finished = self._advance(steps, record[1:], solves[1:])
         kept = int(np.searchsorted(done, finished, side="right"))
-        self._tell_unsolved(solves[:kept])
+        if not self._family.tells_unsolved:
+            self._tell_unsolved(solves[:kept])
         self._tell(self._family.note())
         time = done[:kept] * duration / steps
         find_forces = partial(self._family.joint_forces, start + time, record[:kept])

@@ -75,6 +75,8 @@ def jointed_step(step, system, t, h, state, work):
 class Smooth:
     """A scene made ready to run with one integrator: ``advance`` moves ``state``, and records if told to."""
 
+    tells_unsolved = False  # how an implicit step's iteration ended is told of ``solves``
+
     def __init__(self, scene, bodies, settings):
         user_forces = scene.user_forces
         self.bodies, self.state = bodies, bodies.state()

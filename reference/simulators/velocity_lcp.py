@@ -18,7 +18,7 @@ from ..compiled import bind, compiled
 from ..contacts import contact_rows, fill_masses, keys, label_islands, look_up, part, spread, tangents
 from ..forces import external_force, with_user_forces
 from ..integrators import make_work
-from ..lcp.cone_newton import ContactRows, cone_newton_kernel
+from ..lcp.cone_newton import ContactRows
 from ..trajectory import BodyState
 from .bouncing import MOST_IMPACTS, hop, strike
 from .flight import choose_velocities, gather_velocities, let_rest, move
@@ -26,6 +26,7 @@ from .held import Held
 from .impacts import IMPACTS
 from .lifting import lift
 from .smooth import all_finite
+from .solving import StepSolver, Unsolvable
 from .touched import Touched
 
 
@@ -62,7 +63,9 @@ class VelocityLCP:
     def __init__(self, scene, bodies, settings):
         self.bodies, self.system, self.state = bodies, bodies.system, bodies.state()
         self.collider, self.held = make_collider(bodies, scene), Held(bodies)
-        self.limits, self.law = (settings.tolerance, settings.iterations), IMPACTS[settings.impact]
+        self.solver = StepSolver(settings.solver, settings.friction, settings.tolerance, settings.iterations)
+        self.tells_unsolved = self.solver.name != "cone_newton"  # step by step, in ``note``
+        self.law, self.ended = IMPACTS[settings.impact], None
         self.warm, self.recording = settings.warm_start, settings.record_contacts
         force = external_force
         if scene.user_forces:
@@ -82,7 +85,7 @@ class VelocityLCP:
         self.closed = CLOSED * float(radius[np.isfinite(radius)].min(initial=self.held.size))
         self.key, self.force = np.zeros(0, dtype=np.int64), np.zeros((0, self.d))  # of the contacts before
         self.now, self.filled, self.still, self.lifted = 0.0, 0.0, False, 0.0
-        self.touched, self.worst, self.open = Touched(self.d), np.zeros(2), 0.0
+        self.touched, self.worst, self.open = Touched(self.d), self.solver.worst, 0.0
         self.begin()
 
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
@@ -95,8 +98,11 @@ class VelocityLCP:
         row = 0
         for done in range(steps):
             kept = self.keep()
-            self.step(origin + (first + done) * h, h)
-            if not all_finite(self.state.y):
+            try:
+                self.step(origin + (first + done) * h, h)
+            except Unsolvable as why:
+                self.ended = why.status, str(why)
+            if self.ended or not all_finite(self.state.y):
                 self.restore(kept)
                 return done
             if record is not None and ((done + 1) % every == 0 or done + 1 == steps):
@@ -151,29 +157,36 @@ class VelocityLCP:
 
     def solve(self, rows, free, λ):
         """The velocities u⁺; λ in place."""
-        after, passes, error = cone_newton_kernel(rows, self.M, free, True, λ, *self.limits, np.zeros(0))
-        self.worst[:] = max(self.worst[0], passes), max(self.worst[1], error)
-        return after
+        return self.solver(rows, self.M, free, λ, time=self.now)
 
     def fly(self, contacts, h):
         """Move on by h, without rebound. Returns h."""
-        m, gap = len(contacts.gap), np.concatenate([contacts.gap, self.held.gap()])
+        gap = np.concatenate([contacts.gap, self.held.gap()])
         rows = self.rows(contacts, np.maximum(contacts.gap, 0.0) / h, self.held.in_flight(h))
         free = self.before + (self.free - self.before) * (h / self.filled)
-        key = keys(contacts, len(self.bodies.mass))
-        pushed = look_up(self.key, self.force, key)[tangents(rows, m, self.d)]
-        λ = h * np.concatenate([pushed, self.held.force])
+        λ = h * self.pushed_before(contacts, rows)
         after = self.solve(rows, free, λ)
         label = label_islands(rows.bodies, len(after))
-        let_rest(label, rows, λ, self.before, free, after, REST * self.limits[0])
+        let_rest(label, rows, λ, self.before, free, after, REST * self.solver.limits[0])
         used = np.empty_like(after)
         choose_velocities(rows, label, gap, self.before, after, λ, h, self.closed, used)
         move(self.system, used, after, h, self.state, self.work)
+        self.keep_impulses(contacts, rows, λ, h)
+        return h
+
+    def pushed_before(self, contacts, rows):
+        """The forces (r,) of the step before on these rows; 0 where they are new, or without warm start."""
+        pushed = look_up(self.key, self.force, keys(contacts, len(self.bodies.mass)))
+        return np.concatenate([pushed[tangents(rows, len(contacts.gap), self.d)], self.held.force])
+
+    def keep_impulses(self, contacts, rows, λ, h):
+        """For the record, and for the next step to begin with."""
+        m = len(contacts.gap)
         impulse = spread(rows, λ, m, self.d)
         self.touched.add(contacts, impulse)
         if self.warm:
-            self.key, self.force, self.held.force = key, impulse / h, λ[rows.block[m] :] / h
-        return h
+            self.key, self.force = keys(contacts, len(self.bodies.mass)), impulse / h
+            self.held.force = λ[rows.block[m] :] / h
 
     def keep(self):
         """What ``restore`` needs to go back to now."""
@@ -215,11 +228,12 @@ class VelocityLCP:
 
     def failure(self):
         """The status and reason where ``advance`` ended early, or None, where there is nothing to add."""
-        return ("torn", f"a joint stayed open by {self.open:.2g} in") if self.open else None
+        return ("torn", f"a joint stayed open by {self.open:.2g} in") if self.open else self.ended
 
     def note(self):
         """What must be said of the contacts, or ""."""
-        return f"lifting overlaps apart has added {self.lifted:.3g} J" if self.lifted > 0 else ""
+        lifted = f"lifting overlaps apart has added {self.lifted:.3g} J" if self.lifted > 0 else ""
+        return "; ".join(part for part in (self.solver.told(), lifted) if part)
 
     def joint_forces(self, times, records):
         """ValueError: impulses of joints are not kept here."""

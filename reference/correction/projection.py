@@ -9,11 +9,11 @@ Slides S9, S13; lectures/04_embedding.md. Source: Hairer & Wanner, Solving Ordin
 
 import numpy as np
 
-from .bodies import planar, times
-from .compiled import merged
-from .embedding import factorise_rows, fill_mass_rows, solve_rows
-from .joints import DISTANCE, LINEAR
-from .rotation import (
+from ..bodies import planar, times
+from ..compiled import merged
+from ..embedding import factorise_rows, fill_mass_rows, solve_rows
+from ..joints import DISTANCE, LINEAR
+from ..rotation import (
     exponential,
     multiply,
     quaternion,
@@ -23,7 +23,7 @@ from .rotation import (
     store_quaternion,
     vector,
 )
-from .rows import add_rows, fill_rows, row_times
+from ..rows import add_rows, fill_rows, row_times
 
 MOST_PROJECTIONS = 20
 CLOSE = 1e-9  # of the mechanism's size: so near, an iteration that doesn't help ends it
