@@ -10,12 +10,107 @@ touch each other, do the same. So contact never feeds energy into a scene, whate
 Slides S9, S12; lectures/05_contact.md.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..bodies import planar, times
-from ..compiled import compiled
+from ..compiled import compiled, lean
+from ..contacts import contact_rows, gather, keys, label_islands, look_up, spread
 from ..integrators.splitting import drift_by_midpoint, finish_free_rotation
 from ..rotation import quaternion, rotate, rotate_back, store, vector
+from .held import join
+
+REST = 100  # times the solver's tolerance: so slow is at rest, where contacts hold it
+
+
+class Speeds(NamedTuple):
+    """What a step begins with: n bodies with k velocities each."""
+
+    M: np.ndarray  # (n, k, k)
+    before: np.ndarray  # (n, k): u
+    free: np.ndarray  # (n, k): what u would become without contact
+    f: np.ndarray  # (n, d): of the forces, room to compute in
+    τ: np.ndarray  # (r, 3) or (r, 1)
+
+
+class Limits(NamedTuple):
+    """What a run goes by."""
+
+    tolerance: float  # of the contacts' solver
+    iterations: int
+    closed: float  # m: a gap that counts as none
+    bodies: int  # in the scene
+    warm: bool  # whether a solve starts from the forces before
+
+
+class Turning(NamedTuple):
+    """Limits of the iteration by which a body turns (``splitting.drift_by_midpoint``), and what it took."""
+
+    max_iterations: int
+    tolerance: float
+    solve: np.ndarray  # (2,): iterations, residual
+
+
+@compiled
+def flight(solve, system, state, work, speeds, contacts, held, known, pushed, h, share, limits, worst):
+    """Move on by h s among these contacts and the joints' rows ``held``, without rebound.
+
+    solve(rows, M, free, λ, limits, worst) → u⁺, λ in place. known (c,), pushed (c, d): keys and forces of
+    the contacts before, N. share: h over the time for which ``speeds`` was filled. Returns the keys (m,), the impulses (m, d) in the contacts' frames, and λ of all rows.
+    """
+    before, n = speeds.before, len(speeds.before)
+    gap = gaps(contacts, held)
+    rows = join(contact_rows(contacts, closing_speeds(contacts, h), before.shape[1]), held)
+    free = part_way(before, speeds.free, share)
+    key = keys(contacts, limits.bodies)
+    λ = gather(rows, look_up(known, pushed, key), held.force)
+    scale(λ, h)
+    after = solve(rows, speeds.M, free, λ, limits, worst)
+    label = label_islands(rows.bodies, n)
+    let_rest(label, rows, λ, before, free, after, REST * limits.tolerance)
+    used = np.empty_like(after)
+    choose_velocities(rows, label, gap, before, after, λ, h, limits.closed, used)
+    move(system, used, after, h, state, work)
+    return key, spread(rows, λ, len(key), state.x.shape[1]), λ
+
+
+@compiled
+def gaps(contacts, held):
+    """The gaps of the contacts (m,), and then of the joints' limits."""
+    m = contacts.count[0]
+    gap = np.empty(m + len(held.gap))
+    for q in range(m):
+        gap[q] = contacts.gap[q]
+    for q in range(len(held.gap)):
+        gap[m + q] = held.gap[q]
+    return gap
+
+
+@compiled
+def closing_speeds(contacts, h):
+    """How fast each contact may close, m/s: gap/h (m,), 0 where there is none."""
+    target = np.empty(contacts.count[0])
+    for q in range(len(target)):
+        target[q] = max(contacts.gap[q], 0.0) / h
+    return target
+
+
+@compiled
+def part_way(before, free, share):
+    """The free velocities (n, k) after this share of the time for which they are given."""
+    between = np.empty_like(before)
+    for i in range(len(before)):
+        for a in range(before.shape[1]):
+            between[i, a] = before[i, a] + (free[i, a] - before[i, a]) * share
+    return between
+
+
+@lean
+def scale(λ, h):
+    """λ ← h λ."""
+    for r in range(len(λ)):
+        λ[r] *= h
 
 
 @compiled
