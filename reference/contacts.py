@@ -12,7 +12,7 @@ Slides S10–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Num
 import numpy as np
 
 from .collision import ContactArrays
-from .compiled import compiled, lean
+from .compiled import compiled, inner, lean
 from .rotation import cross, quaternion, rotate
 
 
@@ -74,7 +74,7 @@ def gather(rows, full, others):
     return λ
 
 
-@lean
+@inner
 def parting_speed(contacts, q, u):
     """w_n = J u of contact q for the velocities u (n, k): how fast its two bodies part, m/s."""
     w = 0.0
@@ -120,7 +120,7 @@ def contact_rows(contacts, target, k):
     return bodies, J, c, block, μ, np.zeros(n), np.full(n, np.inf)
 
 
-@compiled
+@lean
 def put_row(J, e, arm, sign):
     """sign · (e, r × e), for one body (S5)."""
     if len(e) == 2:
@@ -131,15 +131,16 @@ def put_row(J, e, arm, sign):
             J[a], J[3 + a] = sign * e[a], sign * moment[a]
 
 
-@compiled
+@inner
 def fill_masses(system, state, M):
     """M (n, k, k), block by block: the mass, and R I Rᵀ in the world frame; 1 for the turning of points,
     which have none.
     """
     n, d = state.x.shape
-    M[:] = 0
     for i in range(n):
         for a in range(M.shape[1]):
+            for b in range(M.shape[1]):
+                M[i, a, b] = 0.0
             M[i, a, a] = system.mass[i] if a < d else 1.0
         if i >= len(state.q):
             continue
@@ -153,7 +154,7 @@ def fill_masses(system, state, M):
         add_axis(M[i], system.inertia[i, 2], rotate(q, (0.0, 0.0, 1.0)))
 
 
-@compiled
+@inner
 def add_axis(M, I, e):
     """Add I e ⊗ e to the turning part of one body's M (6, 6)."""
     for a, x in ((3, e[0]), (4, e[1]), (5, e[2])):
@@ -179,7 +180,7 @@ def label_islands(bodies, n):
     return label
 
 
-@compiled
+@inner
 def root(label, i):
     """The body whose label is its own, followed from i; paths are halved on the way."""
     while label[i] != i:

@@ -20,8 +20,8 @@ Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
-from .augmented import ContactRows, evaluate, inner, make_pass
+from ..compiled import compiled, inner, inner_apart
+from .augmented import ContactRows, dot, evaluate, make_pass
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
 from .smooth_pass import make_factor, solve_smooth
@@ -49,14 +49,16 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
     size, shift, ρ = np.empty(blocks), np.zeros(blocks), np.empty(blocks)
     u, scale = free.copy(), block_sizes(rows, M, free, size)
     if scale == 0:
-        λ[:] = 0
+        for r in range(len(λ)):
+            λ[r] = 0.0
         return u, 0, 0.0
     add_impulses(rows, M, λ, u)
     answer = np.zeros((blocks, 2))
     if coulomb:
         evaluate(rows, M, free, λ, np.ones(blocks), shift, u, out)
         renew_shift(rows, out.w, shift, answer)
-        answer[:, 0], answer[:, 1] = np.inf, 0.0
+        for q in range(blocks):
+            answer[q, 0], answer[q, 1] = np.inf, 0.0
     ε, error, drift = near, np.inf, np.inf
     for passes in range(max_iterations):
         for q in range(blocks):
@@ -71,11 +73,12 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
             return u, passes + 1, error
         if drift > max(0.25 * before, shifted) and ε > SMALLEST:
             ε *= 0.01
-            factor.made[:] = -1
+            for q in range(blocks):
+                factor.made[q] = -1
     return u, max_iterations, error
 
 
-@compiled_apart
+@inner_apart
 def block_sizes(rows, M, free, size):
     """A's largest diagonal entry of each block; returns the worst |w| of the free velocities."""
     scale = 0.0
@@ -86,14 +89,14 @@ def block_sizes(rows, M, free, size):
             for side in range(2):
                 i = rows.bodies[r, side]
                 if i >= 0:
-                    w += inner(rows.J[r, side], free[i])
+                    w += dot(rows.J[r, side], free[i])
                     diagonal += over_mass(M[i], rows.J[r, side])
             size[q] = max(size[q], diagonal)
             scale = max(scale, abs(w))
     return scale
 
 
-@compiled
+@inner
 def add_impulses(rows, M, λ, u):
     """u + M⁻¹ Jᵀ λ, roughly: with the diagonal of M, since it is only where Newton's method starts."""
     for r in range(len(λ)):
@@ -104,7 +107,7 @@ def add_impulses(rows, M, λ, u):
                     u[i, a] += rows.J[r, side, a] * λ[r] / M[i, a, a]
 
 
-@compiled
+@inner
 def over_mass(M, a):
     """a · M⁻¹ a for one body: in space masses first, then the inertia (3, 3); else a diagonal M."""
     if len(a) != 6:
@@ -125,7 +128,7 @@ def over_mass(M, a):
     return (a[0] ** 2 + a[1] ** 2 + a[2] ** 2) / M[0, 0] + turning / determinant
 
 
-@compiled
+@inner
 def renew(rows, out, λ, ρ):
     """λ ← λ̂. Returns the worst change, as a velocity."""
     worst = 0.0
@@ -136,7 +139,7 @@ def renew(rows, out, λ, ρ):
     return worst
 
 
-@compiled
+@inner
 def renew_shift(rows, w, shift, answer):
     """The shift ← μ|w_t|, which makes the law Coulomb's. Returns the worst change, a velocity.
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
+from ..compiled import compiled, compiled_apart, inner, inner_apart
 
 
 class Envelope(NamedTuple):
@@ -84,7 +84,7 @@ def order_bodies(start, other, n):
     return place
 
 
-@compiled_apart
+@inner_apart
 def breadth_first(start, other, root, queue, place, done):
     """Put all that can be reached from root into the queue after place ``done``; returns the new end."""
     queue[done], place[root] = root, done
@@ -100,7 +100,7 @@ def breadth_first(start, other, root, queue, place, done):
     return tail
 
 
-@compiled
+@inner
 def add_block(envelope, values, i, j, k, row, column, weight):
     """Add weight · row ⊗ column to the block of bodies i and j; only what is kept: row ≥ column."""
     p, q = k * envelope.place[i], k * envelope.place[j]
@@ -114,7 +114,7 @@ def add_block(envelope, values, i, j, k, row, column, weight):
             values[at + b] += scaled * column[b]
 
 
-@compiled_apart
+@inner_apart
 def cholesky_in_envelope(envelope, L):
     """L Lᵀ = the matrix, in place, row by row. Returns whether all pivots were positive."""
     first, start = envelope.first, envelope.start
@@ -135,12 +135,11 @@ def cholesky_in_envelope(envelope, L):
     return True
 
 
-@compiled_apart
-def solve_in_envelope(envelope, L, x, out):
-    """out (n, k) of L Lᵀ out = x (n, k), both in the order of the bodies."""
+@inner_apart
+def solve_in_envelope(envelope, L, x, y, out):
+    """out (n, k) of L Lᵀ out = x (n, k), both in the order of the bodies; y (n k,): room."""
     first, start, place = envelope.first, envelope.start, envelope.place
     n, k = x.shape
-    y = np.empty(n * k)
     for i in range(n):
         for a in range(k):
             y[k * place[i] + a] = x[i, a]

@@ -14,7 +14,7 @@ Slides S9, S10; lectures/05_contact.md.
 
 import numpy as np
 
-from ..compiled import compiled, lean
+from ..compiled import compiled, inner
 from ..contacts import keys, part, parting_speed, put_row, spread
 from ..lcp.cone_newton import over_mass
 from .flight import scatter_velocities
@@ -58,7 +58,7 @@ def look_ahead(contacts, speeds, filled, h, left, closed):
     return w, rate, e, strikes, to_come
 
 
-@lean
+@inner
 def kinetic_energy(M, u):
     """½ uᵀ M u, J."""
     total = 0.0
@@ -69,7 +69,7 @@ def kinetic_energy(M, u):
     return total
 
 
-@compiled
+@inner
 def impact_energy(contacts, q, w, M, row):
     """½ w² over 1/m as contact q feels it: what an impact of it alone would take, J. row (k,): room."""
     lightness = 0.0
@@ -167,7 +167,7 @@ def gaps_now(coming, others, now, bodies):
     return least
 
 
-@lean
+@inner
 def same_side(n, other):
     """Whether two normals point the same way, roughly."""
     product = 0.0

@@ -14,7 +14,7 @@ import numpy as np
 from ..bodies import solve_mass
 from ..collision import find_contacts, make_collider
 from ..collision.find import make_contacts
-from ..compiled import bind, compiled
+from ..compiled import bind, lean_apart
 from ..contacts import contact_rows, fill_masses, gather, keys, look_up, part, spread
 from ..forces import external_force, with_user_forces
 from ..trajectory import BodyState
@@ -23,13 +23,13 @@ from .coasting import coast, reach
 from .flight import Limits, Speeds, Turning, flight, gather_velocities
 from .held import Held, join
 from .impacts import IMPACTS
-from .lifting import lift
+from .lifting import lift, raise_apart
 from .smooth import all_finite
 from .solving import StepSolver, Unsolvable, newton_in_cones
 from .touched import Touched
 
 
-@compiled
+@lean_apart
 def fill_free(force, system, t, h, state, speeds):
     """The velocities after h without contact: u + Δt M⁻¹ f_e, into speeds.free; all other ``Speeds`` too."""
     f, τ, before, free = speeds.f, speeds.τ, speeds.before, speeds.free
@@ -58,6 +58,8 @@ class VelocityLCP:
     that there would be after ``filled`` s without contact; ``now`` is the time of the clock.
     """
 
+    coasts = True  # whether ``coast`` may take the steps in which nothing special happens
+
     def __init__(self, scene, bodies, settings):
         self.bodies, self.system, self.state = bodies, bodies.system, bodies.state()
         self.collider, self.held = make_collider(bodies, scene), Held(bodies)
@@ -80,18 +82,19 @@ class VelocityLCP:
             np.zeros_like(self.state.ω),
         )
         self.M, self.before, self.free, _, _ = self.speeds
-        self.work = Turning(30, 1e-15, np.zeros(2))
+        self.work = Turning(30, 1e-15, np.zeros(2), np.zeros_like(self.state.L))
         radius = self.collider.solids.form.radius if self.collider else np.zeros(0)
         self.closed = CLOSED * float(radius[np.isfinite(radius)].min(initial=self.held.size))
         self.key, self.force = np.zeros(0, dtype=np.int64), np.zeros((0, self.d))  # of the contacts before
-        self.now, self.filled, self.still, self.lifted = 0.0, 0.0, False, 0.0
+        self.now, self.filled, self.still, self.lifted = 0.0, 0.0, False, np.zeros(1)
         self.touched, self.worst, self.open = Touched(self.d), self.solver.worst, 0.0
         self.limits = Limits(*self.solver.limits, self.closed, len(bodies.mass), self.warm)
         compiled_whole = self.solver.name == "cone_newton"
-        self.flight = bind(flight, newton_in_cones if compiled_whole else self.solve_in_flight)
+        solve = newton_in_cones if compiled_whole else self.solve_in_flight
+        self.flight, self.raise_apart = bind(flight, solve), bind(raise_apart, solve)
         self.coast = None  # what takes ordinary steps by itself
-        if compiled_whole and self.collider and not len(self.held) and not scene.user_forces:
-            self.coast = bind(coast, self.fill_free, self.collider.detect, self.flight)
+        if self.coasts and compiled_whole and self.collider and not len(self.held) and not scene.user_forces:
+            self.coast = bind(coast, self.fill_free, self.collider.detect, self.flight, self.raise_apart)
         self.begin()
 
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
@@ -142,7 +145,7 @@ class VelocityLCP:
         done, self.still, pushed, impulse = self.coast(
             self.system, self.state, self.work, self.speeds, self.collider.arrays, contacts,
             self.held.rows_with(*self.held.in_flight(h)), (self.key, self.force), t, h, steps, self.limits, self.worst,
-            self.timeless,
+            self.lifted, self.timeless,
         )  # fmt: skip
         self.key, self.force = pushed
         if done and self.recording:
@@ -244,7 +247,7 @@ class VelocityLCP:
         if len(self.held):
             self.fill(0.0, 1.0)
             lift(self, self.within(0.0), 1.0)
-            self.lifted = 0.0
+            self.lifted[0] = 0.0
             if self.open:
                 raise ValueError(
                     f"joints must be able to hold at the same time, but one stays open by {self.open:.3g} "
@@ -265,7 +268,8 @@ class VelocityLCP:
 
     def note(self):
         """What must be said of the contacts, or ""."""
-        lifted = f"lifting overlaps apart has added {self.lifted:.3g} J" if self.lifted > 0 else ""
+        gain = self.lifted[0]
+        lifted = f"lifting overlaps apart has added {gain:.3g} J" if gain > 0 else ""
         return "; ".join(part for part in (self.solver.told(), lifted) if part)
 
     def joint_forces(self, times, records):
