@@ -6,8 +6,8 @@ Slides S4, S9, S18; lectures/02_equation_of_motion.md.
 """
 
 from .arches import arch
-from .bridge import bridge
 from .bricard import bricard
+from .bridge import bridge
 from .cards import card_house
 from .case import Case, Catalogue, Motion
 from .chains import chain, hanging_chain

@@ -45,8 +45,8 @@ def bridge(planks=160, load=100.0, span=0.95, dimension=2, duration=2.0):
         standing(plane.scene),
         position_error(width),
         "relative to the span",
-        "Statics: the planks outside the ball lean by tan θ_k = ((k − ½) w + W/2)/H, k from the middle, and the "
-        "two that bear it by the moments about the hinge between them (Irvine, Cable Structures, 1981).",
+        "Statics: the planks outside the ball lean by tan θ_k = ((k − ½) w + W/2)/H, k from the middle, and "
+        "the two that bear it by the moments about the hinge between them (Irvine, Cable Structures, 1981).",
         "A loop of joints through the world bears a contact: all forces hang together, over 160 bodies.",
     )
 
@@ -57,7 +57,7 @@ def _angles(planks, load, width):
     arm = RADIUS + SLENDER / 2
 
     def inner(H):
-        """Of the plank right of the middle: the moments of its outer hinge, its weight and the ball vanish."""
+        """Of the plank right of the middle: its outer hinge, its weight and the ball make no moment."""
 
         def moment(θ):
             c, s = math.cos(θ), math.sin(θ)

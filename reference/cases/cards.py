@@ -42,9 +42,9 @@ def card_house(storeys=2, share=1.05, duration=2.0):
         standing(plane.scene),
         position_error(1.0) if stands else topples(0.1),
         "m" if stands else "1 if it stands",
-        "Moments about the foot: the thrust is (P + W/2) ℓ sin θ/(ℓ cos θ + r) under a load P, the foot bears "
-        "P + W, so μ must be ½ ℓ sin θ/(ℓ cos θ + r) if P = 0, and twice that at most (as two ladders lean: "
-        "Meriam & Kraige, Engineering Mechanics: Statics, chapter 6).",
+        "Moments about the foot: the thrust is (P + W/2) ℓ sin θ/(ℓ cos θ + r) under a load P, the foot "
+        "bears P + W, so μ must be ½ ℓ sin θ/(ℓ cos θ + r) if P = 0, and twice that at most (as two ladders "
+        "lean: Meriam & Kraige, Engineering Mechanics: Statics, chapter 6).",
         "It stands by friction alone; whatever slips a little each step brings it down.",
     )
 
@@ -52,7 +52,11 @@ def card_house(storeys=2, share=1.05, duration=2.0):
 def _lean(plane, x, z, friction):
     """Two cards of .1 kg that lean on each other over (x, z)."""
     for side in (-1, 1):
-        middle = (x + side * (RADIUS + 0.5 * LENGTH * math.sin(LEAN)), z + RADIUS + 0.5 * LENGTH * math.cos(LEAN))
+        across, up = 0.5 * LENGTH * math.sin(LEAN), 0.5 * LENGTH * math.cos(LEAN)
         plane.scene.add(
-            Capsule(RADIUS, LENGTH / 2), mass=0.1, position=middle, orientation=side * LEAN, friction=friction
+            Capsule(RADIUS, LENGTH / 2),
+            mass=0.1,
+            position=(x + side * (RADIUS + across), z + RADIUS + up),
+            orientation=side * LEAN,
+            friction=friction,
         )

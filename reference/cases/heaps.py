@@ -40,7 +40,8 @@ def heap(n=666, dimension=3, radius=0.1, friction=0.5, seed=0, duration=4.0):
         energy = run.energy()
         gained = np.max(energy - np.minimum.accumulate(energy)) / energy[0]
         speed = np.linalg.norm(run.velocity[-1], axis=-1).max() / math.sqrt(GRAVITY * radius)
-        return max(abs(carried(run, walls) / weight - 1), speed, run.penetration().max() / sizes.min(), gained)
+        deep = run.penetration().max() / sizes.min()
+        return max(abs(carried(run, walls) / weight - 1), speed, deep, gained)
 
     return Case(
         "heap",
@@ -49,8 +50,8 @@ def heap(n=666, dimension=3, radius=0.1, friction=0.5, seed=0, duration=4.0):
         unknown(plane.scene),
         measure,
         "relative",
-        "Newton's laws: at rest the box carries the weight; contact and friction only take energy (the scene: "
-        "SimBenchmark, leggedrobotics, 2018, 666 balls).",
+        "Newton's laws: at rest the box carries the weight; contact and friction only take energy (the "
+        "scene: SimBenchmark, leggedrobotics, 2018, 666 balls).",
         "Hundreds of contacts hang together, more than statics can tell apart, and change all the time.",
     )
 
@@ -63,7 +64,8 @@ def silo(n=2000, opening=10.0, radius=0.1, friction=0.5, seed=0, duration=8.0):
     """
     counted(n=n, seed=seed + 1)
     positive(opening=opening, radius=radius, friction=friction, duration=duration)
-    plane, rng, wide = Ground(2), np.random.default_rng(seed), max(math.ceil(math.sqrt(n)), 3 * math.ceil(opening))
+    plane, rng = Ground(2), np.random.default_rng(seed)
+    wide = max(math.ceil(math.sqrt(n)), 3 * math.ceil(opening))
     half, gap, high = 0.5 * SPACING * radius * wide, opening * radius, 0.35 * SPACING * radius * wide
     _walls(plane, half)
     for side in (-1, 1):
@@ -91,8 +93,8 @@ def silo(n=2000, opening=10.0, radius=0.1, friction=0.5, seed=0, duration=8.0):
         measure,
         "of the rate",
         "The rate doesn't depend on how full it is (Hagen, Bericht Akad. Wiss. Berlin 1852, 35), but goes as "
-        "√g (D − 1.4 d)^(3/2) in the plane (Beverloo, Leniger & van de Velde, Chem. Eng. Sci. 15 (1961) 260); "
-        "that grains fall freely from an arch over the opening gives the constant .874 (Nedderman, Statics and "
+        "√g (D − 1.4 d)^(3/2) in the plane (Beverloo, Leniger & van de Velde, Chem. Eng. Sci. 15 (1961) "
+        "260); that grains fall freely from an arch over the opening gives .874 (Nedderman, Statics and "
         "Kinematics of Granular Materials, 1992, chapter 10).",
         "Arches form and break: sticking, sliding and parting all over, in each step.",
     )
@@ -127,7 +129,7 @@ def pour(plane, n, wide, half, height, radius, friction, rng):
 
 
 def carried(run, walls):
-    """The mean force, N, with which the first ``walls`` bodies hold the others up, since the record before."""
+    """The mean force, N, since the record before, with which the first ``walls`` bodies bear the others."""
     c = run.contacts[-1]
     on = (c.bodies[:, 0] < walls) & (c.bodies[:, 1] >= walls)
     upward = np.einsum("mi,mi->", c.impulse[on], c.frame[on][:, :, -1])

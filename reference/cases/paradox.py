@@ -18,8 +18,8 @@ TILT = math.pi / 4
 def kane(restitution=0.9, slip=0.6, friction=0.5, duration=0.1):
     """A rod of 1 kg and 2 m, at 45°, falls at 1 m/s and drifts at ``slip``; its tip meets the ground.
 
-    Run it with ``impact="newton"``: the error is that of velocity and spin afterwards. By default no energy is
-    gained, and the rebound is less.
+    Run it with ``impact="newton"``: the error is that of velocity and spin afterwards. By default no energy
+    is gained, and the rebound is less.
     """
     positive(restitution=restitution, slip=slip, friction=friction, duration=duration)
     c, s = math.cos(TILT), math.sin(TILT)
@@ -28,7 +28,7 @@ def kane(restitution=0.9, slip=0.6, friction=0.5, duration=0.1):
     if restitution > 1 or not 0 < t <= friction * n:
         raise ValueError(
             "restitution, slip and friction must let the tip stick and be dragged on (restitution ≤ 1, "
-            f"0 < λ_t ≤ μ λ_n), but they are {restitution}, {slip}, {friction}, for which λ_t/λ_n is {t / n:.3g}"
+            f"0 < λ_t ≤ μ λ_n), but they are {restitution}, {slip}, {friction}: λ_t/λ_n is {t / n:.3g}"
         )
     plane = Ground(2)
     plane.scene.gravity = np.zeros(2)

@@ -81,7 +81,8 @@ def descent(share=1.1, angle=0.4, radius=0.3, dimension=2, duration=1.0):
     positive(share=share, angle=angle, radius=radius, duration=duration)
     if angle >= math.pi / 2:
         raise ValueError(f"angle must be less than π/2, but is {angle!r}")
-    plane, k = Ground(dimension, slope=angle), 1 / 2 if dimension == 2 else 2 / 5  # moment of inertia / (m r²)
+    plane = Ground(dimension, slope=angle)
+    k = 1 / 2 if dimension == 2 else 2 / 5  # moment of inertia / (m r²)
     needed = k / (1 + k) * math.tan(angle)
     plane.ball(radius, (0.0, radius), friction=share * needed)
     held = min(share, 1.0) * needed * math.cos(angle)  # friction / (m g)
@@ -94,9 +95,8 @@ def descent(share=1.1, angle=0.4, radius=0.3, dimension=2, duration=1.0):
 
     def measure(run, motion):
         off = np.linalg.norm(run.velocity[-1, 1] - motion.velocity[-1, 1])
-        return (off + radius * np.linalg.norm(run.angular_velocity[-1, 1] - motion.angular_velocity[-1, 1])) / (
-            a * duration
-        )
+        turns = np.linalg.norm(run.angular_velocity[-1, 1] - motion.angular_velocity[-1, 1])
+        return (off + radius * turns) / (a * duration)
 
     return Case(
         "descent",

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
+from ..compiled import compiled, inner, inner_apart
 from .body_order import Pattern, find_pattern
 
 
@@ -23,16 +23,36 @@ class BlockFactor(NamedTuple):
     pattern: Pattern
     diagonal: np.ndarray  # (n, k, k), the lower triangle
     below: np.ndarray  # (blocks, k, k)
+    where: np.ndarray  # (n,), and others to compute in
+    turned: np.ndarray  # (k, k)
+    ordered: np.ndarray  # (n, k)
 
 
 @compiled
 def make_block_factor(pairs, n, k):
     """Room for n bodies with k velocities each; pairs (m, 2): bodies that meet; −1: the world."""
     pattern = find_pattern(pairs, n)
-    return BlockFactor(pattern, np.empty((n, k, k)), np.empty((len(pattern.row), k, k)))
+    return BlockFactor(
+        pattern,
+        np.empty((n, k, k)),
+        np.empty((len(pattern.row), k, k)),
+        np.empty(n, np.int64),
+        np.empty((k, k)),
+        np.empty((n, k)),
+    )
 
 
-@compiled
+@inner
+def clear(factor):
+    """All blocks 0."""
+    for blocks in (factor.diagonal, factor.below):
+        for q in range(len(blocks)):
+            for a in range(blocks.shape[1]):
+                for b in range(blocks.shape[2]):
+                    blocks[q, a, b] = 0.0
+
+
+@inner
 def find_block(pattern, p, q):
     """Where the block of row p and column q < p stands."""
     low, high = pattern.start[q], pattern.start[q + 1]
@@ -45,7 +65,7 @@ def find_block(pattern, p, q):
     return low
 
 
-@compiled
+@inner
 def add_block(factor, i, j, row, column, weight):
     """Add weight · row ⊗ column to the block of bodies i and j; only what is kept: i not before j."""
     p, q = factor.pattern.place[i], factor.pattern.place[j]
@@ -58,25 +78,26 @@ def add_block(factor, i, j, row, column, weight):
             block[a, b] += scaled * column[b]
 
 
-@compiled
+@inner
 def factorise(factor):
     """The matrix becomes its factor. Returns whether all pivots were positive."""
     p = factor.pattern
-    return factorise_blocks(p.start, p.row, p.left, p.column, p.at, factor.diagonal, factor.below)
+    return factorise_blocks(
+        p.start, p.row, p.left, p.column, p.at, factor.diagonal, factor.below, factor.where, factor.turned
+    )
 
 
-@compiled
+@inner
 def solve(factor, x, out):
     """out (n, k) of L Lᵀ out = x (n, k), both in the order of the bodies."""
     p = factor.pattern
-    solve_blocks(p.place, p.start, p.row, factor.diagonal, factor.below, x, out)
+    solve_blocks(p.place, p.start, p.row, factor.diagonal, factor.below, x, factor.ordered, out)
 
 
-@compiled_apart
-def factorise_blocks(start, row, left, column, at, diagonal, below):
+@inner_apart
+def factorise_blocks(start, row, left, column, at, diagonal, below, where, turned):
     """``factorise``, array by array."""
     n, k = diagonal.shape[:2]
-    where, turned = np.empty(n, np.int64), np.empty((k, k))
     for j in range(n):
         for q in range(start[j], start[j + 1]):
             where[row[q]] = q
@@ -95,7 +116,7 @@ def factorise_blocks(start, row, left, column, at, diagonal, below):
     return True
 
 
-@compiled
+@inner
 def subtract_product(C, A, B):
     """C −= A B, all (k, k)."""
     k = len(C)
@@ -106,7 +127,7 @@ def subtract_product(C, A, B):
                 C[a, b] -= scale * B[c, b]
 
 
-@compiled
+@inner
 def factorise_one(A):
     """One block's own factor, into its lower triangle. Returns whether its pivots were positive."""
     for i in range(len(A)):
@@ -123,7 +144,7 @@ def factorise_one(A):
     return True
 
 
-@compiled
+@inner
 def divide_by_transposed(B, L):
     """B ← B L⁻ᵀ with L lower triangular."""
     for a in range(len(B)):
@@ -134,13 +155,13 @@ def divide_by_transposed(B, L):
             B[a, i] = total / L[i, i]
 
 
-@compiled_apart
-def solve_blocks(place, start, row, diagonal, below, x, out):
+@inner_apart
+def solve_blocks(place, start, row, diagonal, below, x, y, out):
     """``solve``, array by array."""
     n, k = x.shape
-    y = np.empty((n, k))
     for i in range(n):
-        y[place[i]] = x[i]
+        for a in range(k):
+            y[place[i], a] = x[i, a]
     for p in range(n):
         for a in range(k):
             for c in range(a):
@@ -160,4 +181,5 @@ def solve_blocks(place, start, row, diagonal, below, x, out):
                 y[p, a] -= diagonal[p, c, a] * y[p, c]
             y[p, a] /= diagonal[p, a, a]
     for i in range(n):
-        out[i] = y[place[i]]
+        for a in range(k):
+            out[i, a] = y[place[i], a]

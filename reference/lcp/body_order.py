@@ -1,7 +1,7 @@
 """In which order to eliminate bodies, and which blocks of Cholesky's factor that leaves: minimum degree.
 
-Eliminating a body joins all that it meets. Next comes one that meets the fewest: in a stack or a chain nothing
-is ever added, in a heap of n discs little. What a body meets when its turn comes are the rows of its column.
+Eliminating a body joins all that it meets. Next comes one that meets the fewest: in a stack or a chain
+nothing is ever added, in a heap little. What a body meets when its turn comes are the rows of its column.
 
 What two eliminated bodies leave behind is not written out. Whoever met the body p keeps p in his list, and
 p's column says who they all are; a column that is part of a newer one is crossed out. So no list ever grows.
@@ -18,7 +18,7 @@ from ..compiled import compiled, compiled_apart
 
 
 class Pattern(NamedTuple):
-    """Where the blocks of L are. Column p, in the order of elimination, has rows row[start[p]] …, ascending."""
+    """Where the blocks of L are: column p, in the order of elimination, has rows row[start[p]] …, sorted."""
 
     place: np.ndarray  # (n,): body → its place in the order
     start: np.ndarray  # (n + 1,)

@@ -1,7 +1,7 @@
 """From where to start where much sticks, slides and parts: an interior-point method for contact's convex law.
 
-Newton's method for the kinks of ``smooth_pass`` tries one state of the contacts after another. In a heap there
-are more states than it can try. Here λ and w stay *inside* their cones, where nothing has kinks, and approach
+Newton's method for the kinks of ``smooth_pass`` tries one state of the contacts after another. In a heap
+there are more than it can try. Here λ and w stay *inside* their cones, where nothing has kinks, and approach
 the answer together along the path on which all their products are the same, s ∘ z = t e, with t → 0:
 
     M (u − u_free) = Jᵀ λ,    w = J u + c,    s ∘ z = t e;     z = (μ λ_n, λ_t),  s = (w_n/μ, w_t)
@@ -15,10 +15,12 @@ Optim. 2 (1992) 575 (two solves a step); Acary, Armand, Nguyen & Shpakovych, Opt
 (friction by such methods).
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
-from .augmented import STICKS, ContactRows, inner
+from ..compiled import compiled_apart, inner, inner_apart
+from .augmented import STICKS, ContactRows, dot
 from .block_cholesky import factorise, solve
 from .smooth_pass import fill_matrix
 
@@ -28,35 +30,40 @@ BACK = 0.99  # of the way to where a cone ends
 FIRM = 1e-4  # ε of what has bounds on both sides, or none: it is held, as if it had none
 
 
-@compiled
+class Inside(NamedTuple):
+    """Room for s, z and what belongs to them, (m,) each but the last."""
+
+    s: np.ndarray
+    z: np.ndarray
+    ds: np.ndarray
+    dz: np.ndarray
+    p: np.ndarray  # J u + c − s
+    r: np.ndarray  # what z is to change by, but for W⁻² times what s does
+    turn: np.ndarray  # W's axis, of determinant 1
+    θ: np.ndarray  # (B,): W's size
+    room: np.ndarray  # (4, 3)
+
+
+@compiled_apart
 def start_inside(rows, M, free, λ, u, size, scale, factor, out):
     """λ (m,) and u (n, k) of the convex law, roughly: in place. Returns the steps taken.
 
     size (B,): A's largest diagonal entry of each block; scale: the worst free w, m/s. factor, out: room.
     """
     rows, unit = make_round(rows)
-    m, blocks = len(unit), len(size)
-    s, z, ds, dz, p, r = np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m)
-    turn, θ, held, ρ = np.zeros(m), np.ones(blocks), np.zeros(blocks, np.bool_), np.ones(blocks)
-    for q in range(blocks):
-        i = rows.block[q]
-        held[q] = rows.μ[q] < 0 and not (rows.lower[i] == 0 and rows.upper[i] == np.inf)
-        if not held[q]:
-            s[i], z[i] = scale * unit[i], scale / (size[q] * unit[i])
-    du, right, cones = np.empty_like(u), np.empty_like(u), max(1, blocks - held.sum())
-    u[:], out.state[:] = free, STICKS
-    for step in range(MOST_STEPS):
-        off = look(rows, M, free, s, z, u, p, out.gradient, unit)
-        total, worst = 0.0, 0.0
-        for q in range(blocks):
-            first, end = rows.block[q], rows.block[q + 1]
-            if held[q]:
-                out.slope[first, 0] = 1 / (FIRM * size[q])
-                continue
-            product = inner(s[first:end], z[first:end])
-            total, worst = total + product, max(worst, product * size[q])
-            θ[q] = find_scaling(s[first:end], z[first:end], turn[first:end])
-            put_inverse_square(turn[first:end], θ[q], out.slope[first:end])
+    m = len(unit)
+    inside = Inside(
+        np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m),
+        np.zeros(len(size)), np.zeros((4, 3)),
+    )  # fmt: skip
+    right, ρ, cones = np.empty_like(u), np.ones(len(size)), begin(rows, unit, size, scale, inside, out)
+    for i in range(len(u)):
+        for a in range(u.shape[1]):
+            u[i, a] = free[i, a]
+    steps = 0
+    while steps < MOST_STEPS:
+        off = look(rows, M, free, u, inside, out.gradient, unit)
+        total, worst = scale_all(rows, size, inside, out.slope)
         if max(off, np.sqrt(worst)) <= CLOSE * scale:
             break
         fill_matrix(rows, M, ρ, out, factor)
@@ -64,28 +71,71 @@ def start_inside(rows, M, free, λ, u, size, scale, factor, out):
             break
         way = 1.0
         for correcting in range(2):
-            target = (1 - way) ** 3 * total / cones
-            for q in range(blocks):
-                first, end = rows.block[q], rows.block[q + 1]
-                if not held[q]:
-                    if correcting:
-                        aim(s[first:end], z[first:end], ds[first:end], dz[first:end], turn[first:end], θ[q],
-                            target, r[first:end])  # fmt: skip
-                    else:
-                        r[first:end] = -z[first:end]
-            pull(rows, out, r, p, right)
-            solve(factor.blocks, right, du)
-            way = move_along(rows, out, r, p, du, held, s, z, ds, dz)
-        way = min(1.0, BACK * way)
-        for i in range(len(u)):
-            for a in range(u.shape[1]):
-                u[i, a] += way * du[i, a]
-        for i in range(m):
-            s[i], z[i] = s[i] + way * ds[i], z[i] + way * dz[i]
+            aim_all(rows, inside, (1 - way) ** 3 * total / cones, correcting == 1)
+            pull(rows, out, inside, right)
+            solve(factor.blocks, right, factor.move)
+            way = move_along(rows, out.slope, factor.move, inside)
+        advance(min(1.0, BACK * way), factor.move, u, inside)
+        steps += 1
     for i in range(m):
-        λ[i] = unit[i] * z[i]
-    factor.made[:] = -1
-    return step
+        λ[i] = unit[i] * inside.z[i]
+    for q in range(len(size)):
+        factor.made[q] = -1
+    return steps
+
+
+@inner_apart
+def begin(rows, unit, size, scale, inside, out):
+    """s and z on the axes of their cones; θ = −1 where there is none. Returns how many (at least 1)."""
+    cones = 0
+    for q in range(len(size)):
+        i, out.state[q], inside.θ[q] = rows.block[q], STICKS, -1.0
+        if rows.μ[q] >= 0 or (rows.lower[i] == 0 and rows.upper[i] == np.inf):
+            inside.s[i], inside.z[i], inside.θ[q] = scale * unit[i], scale / (size[q] * unit[i]), 1.0
+            cones += 1
+    return max(cones, 1)
+
+
+@inner_apart
+def scale_all(rows, size, inside, slope):
+    """W of each cone, and W⁻² into slope. Returns Σ s·z, and the worst of them as a velocity squared."""
+    total, worst = 0.0, 0.0
+    for q in range(len(size)):
+        first, end = rows.block[q], rows.block[q + 1]
+        if inside.θ[q] < 0:
+            slope[first, 0] = 1 / (FIRM * size[q])
+            continue
+        s, z, turn = inside.s[first:end], inside.z[first:end], inside.turn[first:end]
+        product = dot(s, z)
+        total, worst = total + product, max(worst, product * size[q])
+        inside.θ[q] = find_scaling(s, z, turn)
+        put_inverse_square(turn, inside.θ[q], slope[first:end])
+    return total, worst
+
+
+@inner_apart
+def aim_all(rows, inside, target, correcting):
+    """r of each cone: −z for what would be best if all were linear; then so that s ∘ z becomes target e."""
+    for q in range(len(inside.θ)):
+        first, end = rows.block[q], rows.block[q + 1]
+        if inside.θ[q] > 0 and correcting:
+            s, z, turn = inside.s[first:end], inside.z[first:end], inside.turn[first:end]
+            ds, dz, r = inside.ds[first:end], inside.dz[first:end], inside.r[first:end]
+            aim(s, z, ds, dz, turn, inside.θ[q], target, r, inside.room)
+        elif inside.θ[q] > 0:
+            for i in range(first, end):
+                inside.r[i] = -inside.z[i]
+
+
+@inner
+def advance(way, move, u, inside):
+    """Go so much of the way."""
+    for i in range(len(u)):
+        for a in range(u.shape[1]):
+            u[i, a] += way * move[i, a]
+    for i in range(len(inside.s)):
+        inside.s[i] += way * inside.ds[i]
+        inside.z[i] += way * inside.dz[i]
 
 
 @compiled_apart
@@ -101,10 +151,10 @@ def make_round(rows):
     return ContactRows(rows.bodies, J, c, rows.block, rows.μ, rows.lower, rows.upper), unit
 
 
-@compiled_apart
-def look(rows, M, free, s, z, u, p, gradient, unit):
-    """p = J u + c − s, and −gradient = Jᵀ z − M (u − free). Returns the worst of both, as a velocity."""
-    worst, k = 0.0, u.shape[1]
+@inner_apart
+def look(rows, M, free, u, inside, gradient, unit):
+    """p = J u + c − s, and the gradient M (u − free) − Jᵀ z. Returns the worst of both, as a velocity."""
+    worst, k, p = 0.0, u.shape[1], inside.p
     for i in range(len(u)):
         for a in range(k):
             total = 0.0
@@ -112,13 +162,13 @@ def look(rows, M, free, s, z, u, p, gradient, unit):
                 total += M[i, a, b] * (u[i, b] - free[i, b])
             gradient[i, a] = total
     for r in range(len(p)):
-        p[r] = rows.c[r] - s[r]
+        p[r] = rows.c[r] - inside.s[r]
         for side in range(2):
             i = rows.bodies[r, side]
             if i >= 0:
-                p[r] += inner(rows.J[r, side], u[i])
+                p[r] += dot(rows.J[r, side], u[i])
                 for a in range(k):
-                    gradient[i, a] -= rows.J[r, side, a] * z[r]
+                    gradient[i, a] -= rows.J[r, side, a] * inside.z[r]
         worst = max(worst, abs(p[r]) / unit[r])
     for i in range(len(u)):
         for a in range(k):
@@ -126,7 +176,16 @@ def look(rows, M, free, s, z, u, p, gradient, unit):
     return worst
 
 
-@compiled
+@inner
+def product(x, y, d):
+    """Σ x_a y_a of the first d."""
+    total = 0.0
+    for a in range(d):
+        total += x[a] * y[a]
+    return total
+
+
+@inner
 def determinant(x):
     """x_0² − |x_1|²: positive inside the cone."""
     total = x[0] * x[0]
@@ -135,17 +194,17 @@ def determinant(x):
     return total
 
 
-@compiled
+@inner
 def find_scaling(s, z, turn):
     """θ, and turn (d,) with determinant 1, of the W that takes z and s to the same point."""
     det_s, det_z = np.sqrt(determinant(s)), np.sqrt(determinant(z))
-    γ = np.sqrt(0.5 * (1 + inner(s, z) / (det_s * det_z)))
+    γ = np.sqrt(0.5 * (1 + dot(s, z) / (det_s * det_z)))
     for a in range(len(s)):
         turn[a] = 0.5 * (s[a] / det_s + (z[a] if a == 0 else -z[a]) / det_z) / γ
     return np.sqrt(det_s / det_z)
 
 
-@compiled
+@inner
 def put_inverse_square(turn, θ, slope):
     """W⁻² into slope (d, 3)."""
     for a in range(len(turn)):
@@ -155,7 +214,7 @@ def put_inverse_square(turn, θ, slope):
             slope[a, b] = (2 * sign * turn[a] * turn[b] - own) / (θ * θ)
 
 
-@compiled
+@inner
 def scaled(turn, θ, sign, x, a):
     """Entry a of W x (sign 1) or W⁻¹ x (sign −1)."""
     along = 0.0
@@ -167,33 +226,33 @@ def scaled(turn, θ, sign, x, a):
     return f * (x[a] + (x[0] + along / (1 + turn[0])) * sign * turn[a])
 
 
-@compiled
-def aim(s, z, ds, dz, turn, θ, target, r):
+@inner
+def aim(s, z, ds, dz, turn, θ, target, r, room):
     """r (d,): what z is to change by, but for W⁻² times what s does, so that s ∘ z becomes target e.
 
     In the scaled space, l = W z: r = W⁻¹ (l \\ (target e − l ∘ l − W⁻¹ ds ∘ W dz)).
     """
     d = len(s)
-    l, x, y, right = np.empty(d), np.empty(d), np.empty(d), np.empty(d)
+    l, x, y, right = room[0], room[1], room[2], room[3]
     for a in range(d):
         l[a], x[a], y[a] = (
             scaled(turn, θ, 1.0, z, a),
             scaled(turn, θ, -1.0, ds, a),
             scaled(turn, θ, 1.0, dz, a),
         )
-    right[0] = target - inner(l, l) - inner(x, y)
+    right[0] = target - product(l, l, d) - product(x, y, d)
     along = 0.0
     for a in range(1, d):
         right[a] = -2 * l[0] * l[a] - x[0] * y[a] - y[0] * x[a]
         along += l[a] * right[a]
-    x[0] = (l[0] * right[0] - along) / determinant(l)
+    x[0] = (l[0] * right[0] - along) / determinant(l[:d])
     for a in range(1, d):
         x[a] = (right[a] - x[0] * l[a]) / l[0]
     for a in range(d):
-        r[a] = scaled(turn, θ, -1.0, x, a)
+        r[a] = scaled(turn, θ, -1.0, x[:d], a)
 
 
-@compiled
+@inner
 def weighted(rows, slope, q, r, x):
     """Entry of row r of block q of W⁻² x."""
     total, first = 0.0, rows.block[q]
@@ -202,15 +261,15 @@ def weighted(rows, slope, q, r, x):
     return total
 
 
-@compiled_apart
-def pull(rows, out, r, p, right):
+@inner_apart
+def pull(rows, out, inside, right):
     """right (n, k) = −gradient + Jᵀ (r − W⁻² p)."""
     for i in range(len(right)):
         for a in range(right.shape[1]):
             right[i, a] = -out.gradient[i, a]
     for q in range(len(rows.μ)):
         for c in range(rows.block[q], rows.block[q + 1]):
-            force = r[c] - weighted(rows, out.slope, q, c, p)
+            force = inside.r[c] - weighted(rows, out.slope, q, c, inside.p)
             for side in range(2):
                 i = rows.bodies[c, side]
                 if i >= 0:
@@ -218,28 +277,28 @@ def pull(rows, out, r, p, right):
                         right[i, a] += rows.J[c, side, a] * force
 
 
-@compiled_apart
-def move_along(rows, out, r, p, du, held, s, z, ds, dz):
+@inner_apart
+def move_along(rows, slope, du, inside):
     """ds and dz that go with du. Returns how far to go, at most 1, until the first cone ends."""
-    way = 1.0
+    way, s, z, ds, dz = 1.0, inside.s, inside.z, inside.ds, inside.dz
     for q in range(len(rows.μ)):
         first, end = rows.block[q], rows.block[q + 1]
         for c in range(first, end):
-            ds[c] = p[c]
+            ds[c] = inside.p[c]
             for side in range(2):
                 i = rows.bodies[c, side]
                 if i >= 0:
-                    ds[c] += inner(rows.J[c, side], du[i])
+                    ds[c] += dot(rows.J[c, side], du[i])
         for c in range(first, end):
-            dz[c] = r[c] - weighted(rows, out.slope, q, c, ds)
-        if held[q]:
+            dz[c] = inside.r[c] - weighted(rows, slope, q, c, ds)
+        if inside.θ[q] < 0:
             ds[first] = 0.0
         else:
             way = min(way, to_boundary(s[first:end], ds[first:end]), to_boundary(z[first:end], dz[first:end]))
     return way
 
 
-@compiled
+@inner
 def to_boundary(x, dx):
     """The largest t ≤ 1 with x + t dx in the cone: up to the first root of its determinant, a quadratic."""
     a, b, c = determinant(dx), x[0] * dx[0], determinant(x)

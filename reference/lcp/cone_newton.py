@@ -20,8 +20,8 @@ Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
-from .augmented import ContactRows, inner, make_pass
+from ..compiled import compiled, inner, inner_apart
+from .augmented import ContactRows, dot, make_pass
 from .cone_interior import start_inside
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
@@ -51,21 +51,24 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
     size, shift, ρ = np.empty(blocks), np.zeros(blocks), np.empty(blocks)
     u, scale = free.copy(), block_sizes(rows, M, free, size)
     if scale == 0:
-        λ[:] = 0
+        for r in range(len(λ)):
+            λ[r] = 0.0
         return u, 0, 0.0
     add_impulses(rows, M, λ, u)
     answer = np.zeros((blocks, 2))
     if coulomb:
         begin_shift(rows, u, shift, answer)
-    ε, error, drift, most = near, np.inf, np.inf, FEW
+    ε, error, drift, most, enough = near, np.inf, np.inf, FEW, 0.1 * tolerance * scale
     for passes in range(max_iterations):
-        steps = solve_smooth(rows, M, free, λ, weigh(ε, size, ρ), shift, factor, u, 0.1 * tolerance * scale, out, trial, most)
+        weigh(ε, size, ρ)
+        steps = solve_smooth(rows, M, free, λ, ρ, shift, factor, u, enough, out, trial, most)
         if steps == most == FEW:  # too many states to try one after another: come from inside the cones
             start_inside(rows, M, free, λ, u, size, scale, factor, out)
             if coulomb:
                 begin_shift(rows, u, shift, answer)
             ε, drift, most = FROM_INSIDE, np.inf, MANY
-            solve_smooth(rows, M, free, λ, weigh(ε, size, ρ), shift, factor, u, 0.1 * tolerance * scale, out, trial, most)
+            weigh(ε, size, ρ)
+            solve_smooth(rows, M, free, λ, ρ, shift, factor, u, enough, out, trial, most)
         before, drift = drift, renew(rows, out, λ, ρ) / scale
         shifted = renew_shift(rows, out.w, shift, answer) / scale if coulomb else 0.0
         error = max(drift, shifted)
@@ -75,11 +78,12 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
             return u, passes + 1, error
         if drift > max(0.25 * before, shifted) and ε > SMALLEST and most == FEW:
             ε *= 0.01
-            factor.made[:] = -1
+            for q in range(blocks):
+                factor.made[q] = -1
     return u, max_iterations, error
 
 
-@compiled_apart
+@inner_apart
 def block_sizes(rows, M, free, size):
     """A's largest diagonal entry of each block; returns the worst |w| of the free velocities."""
     scale = 0.0
@@ -90,14 +94,14 @@ def block_sizes(rows, M, free, size):
             for side in range(2):
                 i = rows.bodies[r, side]
                 if i >= 0:
-                    w += inner(rows.J[r, side], free[i])
+                    w += dot(rows.J[r, side], free[i])
                     diagonal += over_mass(M[i], rows.J[r, side])
             size[q] = max(size[q], diagonal)
             scale = max(scale, abs(w))
     return scale
 
 
-@compiled
+@inner
 def add_impulses(rows, M, λ, u):
     """u + M⁻¹ Jᵀ λ, roughly: with the diagonal of M, since it is only where Newton's method starts."""
     for r in range(len(λ)):
@@ -108,7 +112,7 @@ def add_impulses(rows, M, λ, u):
                     u[i, a] += rows.J[r, side, a] * λ[r] / M[i, a, a]
 
 
-@compiled
+@inner
 def over_mass(M, a):
     """a · M⁻¹ a for one body: in space masses first, then the inertia (3, 3); else a diagonal M."""
     if len(a) != 6:
@@ -129,7 +133,7 @@ def over_mass(M, a):
     return (a[0] ** 2 + a[1] ** 2 + a[2] ** 2) / M[0, 0] + turning / determinant
 
 
-@compiled
+@inner
 def renew(rows, out, λ, ρ):
     """λ ← λ̂. Returns the worst change, as a velocity."""
     worst = 0.0
@@ -140,18 +144,16 @@ def renew(rows, out, λ, ρ):
     return worst
 
 
-@compiled
+@inner
 def weigh(ε, size, ρ):
     """ρ (B,), filled: 1/ε over A's entries."""
     for q in range(len(size)):
         ρ[q] = 1 / (ε * size[q])
-    return ρ
 
 
-@compiled_apart
+@inner_apart
 def begin_shift(rows, u, shift, answer):
     """The shift that belongs to u, and an ``answer`` that knows of nothing before it."""
-    answer[:] = 0
     for q in range(len(shift)):
         along = 0.0
         for r in range(rows.block[q] + 1, rows.block[q + 1]):
@@ -159,13 +161,13 @@ def begin_shift(rows, u, shift, answer):
             for side in range(2):
                 i = rows.bodies[r, side]
                 if i >= 0:
-                    w += inner(rows.J[r, side], u[i])
+                    w += dot(rows.J[r, side], u[i])
             along += w * w
         shift[q] = max(rows.μ[q], 0.0) * np.sqrt(along)
-        answer[q, 0] = np.inf
+        answer[q, 0], answer[q, 1] = np.inf, 0.0
 
 
-@compiled
+@inner
 def renew_shift(rows, w, shift, answer):
     """The shift ← μ|w_t|, which makes the law Coulomb's. Returns the worst change, a velocity.
 
