@@ -20,6 +20,7 @@ from ..contacts import contact_rows, gather, keys, label_islands, look_up, sprea
 from ..integrators.splitting import drift_by_midpoint, finish_free_rotation
 from ..rotation import quaternion, rotate, rotate_back, store, vector
 from .held import join
+from .resting import leave_out_rest, put_back
 
 REST = 100  # times the solver's tolerance: so slow is at rest, where contacts hold it
 
@@ -61,7 +62,9 @@ def flight(solve, system, state, work, speeds, contacts, held, known, pushed, h,
     the contacts before, N. share: h over the time for which ``speeds`` was filled. Returns the keys (m,), the impulses (m, d) in the contacts' frames, and λ of all rows.
     """
     rows, gap, free, key, λ = prepare(contacts, held, speeds, known, pushed, h, share, limits.bodies)
-    after = solve(rows, speeds.M, free, λ, limits, worst)
+    moving = leave_out_rest(rows, speeds.M, speeds.before, free, λ, limits.tolerance)
+    found = solve(moving.rows, moving.M, moving.free, moving.λ, limits, worst)
+    after = put_back(moving, found, λ, free)
     finish(system, state, work, speeds.before, rows, gap, free, after, λ, h, limits)
     return key, spread(rows, λ, len(key), state.x.shape[1]), λ
 

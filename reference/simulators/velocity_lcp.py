@@ -194,8 +194,8 @@ class VelocityLCP:
         return self.solver(rows, self.M, free, λ, time=self.now)
 
     def solve_in_flight(self, rows, M, free, λ, limits, worst):
-        """``solve``, for ``flight``."""
-        return self.solve(rows, free, λ)
+        """``solve``, for ``flight``, which leaves out what rests."""
+        return self.solver(rows, M, free, λ, time=self.now)
 
     def fly(self, contacts, h):
         """Move on by h, without rebound. Returns h."""
