@@ -20,7 +20,7 @@ Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 
 import numpy as np
 
-from ..compiled import compiled, inner, inner_apart
+from ..compiled import compiled_apart, inner, inner_apart
 from .augmented import ContactRows, dot, evaluate, make_pass
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
@@ -35,7 +35,7 @@ NEAR, SMALLEST = 1e-6, 1e-10  # ε at first, and where passes shrink the error t
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # w's rounding makes 1e-16/ε in λ: to polish, a larger ε
 
 
-@compiled
+@compiled_apart
 def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, history, near=NEAR):
     """u (n, k) and λ (m,), which holds the start and is changed in place. M (n, k, k), free (n, k).
 

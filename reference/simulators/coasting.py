@@ -26,7 +26,7 @@ def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, c
     """
     solids, grid, pairs, spare, raw = collider
     before, start, impulse = state.y.copy(), state.x.copy(), pushed[1]
-    label = np.arange(len(start))
+    label = numbers(len(start))
     for done in range(steps):
         copy(state.y, before)
         lifts, unpaid = 0, 0.0
@@ -39,7 +39,7 @@ def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, c
                 break
             if lifts == 0:
                 copy_positions(state.x, start)
-                number(label)
+                label = numbers(len(start))
             raise_apart(state, contacts, held, speeds, label, limits, worst)
             lifts += 1
         if lifts > 0:
@@ -71,11 +71,10 @@ def copy_positions(x, to):
             to[i, a] = x[i, a]
 
 
-@inner
-def number(label):
-    """0, 1, 2, …"""
-    for i in range(len(label)):
-        label[i] = i
+@compiled(door=False)
+def numbers(n):
+    """0, 1, … n − 1."""
+    return np.arange(n)
 
 
 @lean

@@ -53,7 +53,7 @@ class Turning(NamedTuple):
     L: np.ndarray  # (r, 3), or (0, 3) in the plane
 
 
-@compiled
+@compiled_apart
 def flight(solve, system, state, work, speeds, contacts, held, known, pushed, h, share, limits, worst):
     """Move on by h s among these contacts and the joints' rows ``held``, without rebound.
 
