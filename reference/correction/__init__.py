@@ -1,15 +1,15 @@
 """Error correction: positions drift off their constraints, and five ways to bring them back (S13).
 
-    projection      positions are moved back by the smallest move, apart from the dynamics       no energy, dear
-    baumgarte       a share of the error each step is asked of the velocities                    cheap, throws
-    split_impulse   the same of velocities that are forgotten after the step                     two solves
-    nonlinear       a few Gauss–Seidel sweeps over the positions after the step                  cheap
+    projection      positions are moved back by the smallest move, all at once
+    baumgarte       a share of the error each step is asked of the velocities, which keep it
+    split_impulse   the same of velocities that are forgotten after the step
+    nonlinear       a few Gauss–Seidel sweeps over the positions after the step
     soft            a spring and damper in place of the rigid constraint, stable at any stiffness
 
 Each is a formula over arrays; ``simulators.fixed_step`` uses them, and ``projection`` serves joints under
 "smooth" too. An error is φ of a joint, or a contact's gap where that is negative.
 
-Slides S13; lectures/04_embedding.md.
+Slides S9, S13; lectures/04_embedding.md.
 """
 
 from .baumgarte import baumgarte_velocity
@@ -27,8 +27,9 @@ from .soft import soft_coefficients, soft_velocity
 from .split_impulse import pseudo_velocities
 
 # The parameters of each, and what engines set them to. fraction: of the error, a step; slop, m: what is left
-# alone, so that contacts at rest stay in touch (Box2D 2.4: b2_baumgarte, b2_linearSlop, b2_maxLinearCorrection
-# and its 3 position iterations; Bullet 3: erp2, without slop). frequency, Hz, and damping ratio: Box2D 3.
+# alone, so that contacts at rest stay in touch; most, m, in a sweep (Box2D 2.4: b2_baumgarte, b2_linearSlop,
+# b2_maxLinearCorrection, 3 position iterations; Bullet 3: erp2, no slop). frequency, Hz, and damping ratio:
+# Box2D 3.
 CORRECTIONS = {
     "projection": {},
     "none": {},

@@ -7,8 +7,8 @@ renews the geometry of each contact before it is its turn.
 
 Velocities are not touched. The error left after a few sweeps is the next step's.
 
-Slides S13; lectures/04_embedding.md. Source: Box2D 2.4, ``b2ContactSolver::SolvePositionConstraints``; Müller
-et al., J. Vis. Commun. Image Represent. 18 (2007) 109, for the same in position-based dynamics.
+Slides S12, S13; lectures/05_contact.md. Source: Box2D 2.4, ``b2ContactSolver::SolvePositionConstraints``;
+Müller et al., J. Vis. Commun. Image Represent. 18 (2007) 109, for the same in position-based dynamics.
 """
 
 from ..compiled import compiled
@@ -17,8 +17,8 @@ from ..factored import add_row, row_times
 
 @compiled
 def position_error(φ, pushes, fraction, slop, most):
-    """What a row takes back of an error φ, m: a fraction of it, and at most ``most``. A row that may only push
-    takes what is deeper than slop.
+    """What a row takes back of an error φ, m: a fraction of it, and at most ``most``. A row that may only
+    push takes what is deeper than slop.
     """
     if pushes:
         return max(min(fraction * (φ + slop), 0.0), -most)

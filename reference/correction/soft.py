@@ -10,16 +10,16 @@ is the row  w + γ λ + (β/Δt) φ = 0  with
 for any k and c, however stiff. Frequency and damping ratio say the same without knowing the masses:
 k = m ω², c = 2 m ζ ω, with m = 1/A_ii, what the row feels of the bodies' masses. γ → 0 is Baumgarte.
 
-Slides S13; lectures/04_embedding.md. Source: Catto, Soft constraints (2011); Lacoursière, Ghosts and Machines
-(2007), for the implicit spring as a regularised constraint.
+Slides S12, S13; lectures/05_contact.md. Source: Catto, Soft constraints (2011); Lacoursière, Ghosts and
+Machines (2007), for the implicit spring as a regularised constraint.
 """
 
 import numpy as np
 
 
 def soft_coefficients(mass, h, frequency, ratio):
-    """(γ, β): softness, 1/kg, and the share of φ taken back in a step of h s, for rows of these effective masses
-    (m,), kg (kg m²), frequency, Hz, above 0, and damping ratio ≥ 0.
+    """(γ, β): softness, 1/kg, and the share of φ taken back in a step of h s. mass (m,): the rows' effective
+    masses, kg (kg m²); frequency, Hz, above 0; ratio: of damping, at least 0.
     """
     ω = 2 * np.pi * frequency
     k, c = mass * ω**2, 2 * mass * ratio * ω

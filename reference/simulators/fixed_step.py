@@ -1,4 +1,4 @@
-"""The step as slide S9 has it, and as engines do it: fixed Δt, one solve, and positions follow the end velocity.
+"""The step as slide S9 has it, and as engines do it: fixed Δt, one solve, positions by the end velocity.
 
 Contacts are found at the step's start; what approaches fast enough to meet within the step rebounds with the
 speed that it has at the start; and positions move with the velocities at the end. Bodies go into each other
@@ -10,7 +10,7 @@ that way, and joints open. The ``correction`` is what is done about it:
     split_impulse   a second solve for velocities that move the bodies, and are forgotten
     nonlinear       sweeps over the positions after the step
 
-Slides S9, S13; lectures/05_contact.md. Source: Catto, Iterative dynamics with temporal coherence (2005).
+Slides S9, S12, S13; lectures/05_contact.md. Source: Catto, Iterative dynamics with temporal coherence (2005).
 """
 
 import numpy as np

@@ -111,8 +111,8 @@ class Settings:
         name, parameters = checked_correction(self.correction)
         if name != "projection" and self.impact not in (None, "newton"):
             raise Unsupported(
-                f"impact={self.impact!r} can't go with correction={name!r}: its step has one solve, and knows "
-                "Newton's law only"
+                f"impact={self.impact!r} can't go with correction={name!r}: its step has one solve, and "
+                "knows Newton's law only"
             )
         return replace(
             self,

@@ -1,9 +1,8 @@
-"""One problem of a step, by any method of ``reference.lcp``: rows, masses and free velocities → problem → λ →
-velocities.
+"""One problem of a step, by any method of ``reference.lcp``: from rows to a problem, λ, and velocities.
 
     friction "cone"     a ConeProblem with blocks (n, t1, t2): the same in all directions
-             "box"      an LCP in which each tangent has its own bounds ±μ λ_n (S17): up to √2 too much
-             "pyramid"  an LCP of Stewart & Trinkle: tangents ±t1, ±t2 with λ ≥ 0, and Σ λ ≤ μ λ_n: down to 1/√2
+             "box"      an LCP in which each tangent has its own bounds ±μ λ_n (S17): up to √2 of it
+             "pyramid"  Stewart & Trinkle's LCP: ±t1, ±t2 with λ ≥ 0 each, and Σ λ ≤ μ λ_n: down to 1/√2
 
 In the plane all three are the same. A = J M⁻¹ Jᵀ is handed over as its factors, except for the pyramid, whose
 matrix is not of that form. The default method, ``cone_newton``, takes the rows as they are.
@@ -112,15 +111,15 @@ def factors(rows, M, softness=None):
 
 
 def as_one_body(rows, A, free):
-    """(rows, M, free) for the same λ: one body of as many velocities as A has rank, A = G Gᵀ, M = 1, J = G."""
+    """(rows, M, free) for the same λ: one body of as many velocities as A = G Gᵀ has rank; M = 1, J = G."""
     bodies, G, M = one_body(A)
     b = rates(rows, free) + rows.c
     return ContactRows(bodies, G, b, rows.block, rows.μ, rows.lower, rows.upper), M, np.zeros(M.shape[:2])
 
 
 def cone_problem(rows, A, free, λ):
-    """(ConeProblem, start, back), back(λ of the problem) → λ (m,). A contact without friction becomes a cone of
-    μ = 0, whose tangents push a body of its own, which nothing else touches.
+    """(ConeProblem, start, back), where back(λ of the problem) is λ (m,). A contact without friction becomes
+    a cone of μ = 0, whose tangents push a body of its own, which nothing else touches.
     """
     d = 2 if A.J.shape[2] == 3 else 3
     first, size = rows.block[:-1], np.diff(rows.block)

@@ -209,7 +209,7 @@ def passed_in_notebook(book, folder):
 
 
 @each_unit
-@pytest.mark.parametrize("kind", ["starter", "solution", "mistake"])
+@pytest.mark.parametrize("kind", ["starter", "solution", pytest.param("mistake", marks=pytest.mark.slow)])
 def test_notebook_and_shell_give_the_same_score(unit, kind, tmp_path, monkeypatch):
     monkeypatch.setenv("PYTHONPATH", str(exercises.FOLDER.parent))
     paths = {

@@ -82,7 +82,8 @@ def test_without_a_sandbox_nothing_is_graded_unless_told(tmp_path):
     assert "without a sandbox" in feedback(tmp_path, "ada")
 
 
-@pytest.mark.parametrize("jobs", [pytest.param(1, marks=pytest.mark.slow), 2])
+@pytest.mark.slow
+@pytest.mark.parametrize("jobs", [1, 2])
 def test_ctrl_c_ends_it_soon_and_the_next_run_goes_on(jobs, tmp_path):
     slow = "import time\ntime.sleep(0.5)"
     plant(tmp_path, {f"student{i}": [*solution(0)[:3], slow] for i in range(6)})

@@ -143,6 +143,7 @@ def test_growth_stops_where_it_is_slow_or_refused(tmp_path):
     assert (tmp_path / "links.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_a_contact_contest_has_a_point_for_each_setting(tmp_path):
     engines = {"pymunk": ({"rate": 60}, {"rate": 600, "slop": 1e-4}), "pybullet": ({"rate": 240},)}
     contest = ContactContest("slide", "slope", {"share": 0.5, "duration": 0.5}, engines=engines)

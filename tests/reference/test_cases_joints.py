@@ -17,6 +17,8 @@ from reference.measure import fitted_order
 from reference.rotation import over_arrays, rotate
 from reference.trajectory import ContactHistory, Trajectory
 
+pytestmark = pytest.mark.xdist_group("joints")  # what one test compiles, the next needs
+
 ALL = [
     ("pendulum", {}),
     ("pendulum", {"angle": 3.0, "dimension": 3, "joint": "ball", "length": 2.0, "mass": 3.0}),

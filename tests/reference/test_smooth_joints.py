@@ -30,6 +30,7 @@ from reference import (
 from reference.cases import CASES
 
 ROOT = Path(__file__).parents[2]
+pytestmark = pytest.mark.xdist_group("joints")  # what one test compiles, the next needs
 
 
 def tip_of(run, length=1.0):

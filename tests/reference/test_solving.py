@@ -1,4 +1,4 @@
-"""A step's problem by any method, with the cone, the box and the pyramid: against Coulomb's law, and pymunk."""
+"""A step's problem by any method, with cone, box and pyramid: against Coulomb's law, and pymunk."""
 
 import numpy as np
 import pytest
@@ -68,8 +68,8 @@ def test_two_boxes_stand_by_this_method(friction, solver):
 @pytest.mark.parametrize("friction", MODELS)
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_a_method_is_right_or_says_why_not(friction, solver):
-    """Each method either can't treat the friction, and says so in a sentence, or is right. Plain Jacobi, whose
-    matrix is not diagonally dominant here, and what stops at a kink, may also say that they failed.
+    """Each method either can't treat the friction, and says so in a sentence, or is right. Plain Jacobi,
+    whose matrix is not diagonally dominant here, and what stops at a kink, may also say that they failed.
     """
     try:
         run = simulate(stack(2, 2), 0.1, FRAME, friction=friction, solver=solver)
@@ -189,8 +189,8 @@ def test_pymunk_does_the_same_sweeps(sweeps):
 
 
 def test_pymunk_corrects_by_split_impulse():
-    """Chipmunk takes back 1 − bias^Δt of the overlap, by velocities that it forgets. It moves the bodies before
-    it solves, and so is one step late.
+    """Chipmunk takes back 1 − bias^Δt of the overlap, by velocities that it forgets. It moves the bodies
+    before it solves, and so is one step late.
     """
     fraction = 1 - ((1 - 0.1) ** 60) ** FRAME  # ``collision_bias`` as it comes
     theirs, _ = column_in_pymunk(3, 3000, slop=0.0, steps=31, dt=FRAME, gravity=G)

@@ -275,8 +275,6 @@ def test_what_is_not_there_is_said():
     scene = block(2, 0, 0.5)
     for setting in (
         {"solver": "lemke"},
-        {"friction": "box"},
-        {"correction": "baumgarte"},
         {"integrator": "rk4"},
     ):
         with pytest.raises(Unsupported, match=next(iter(setting.values()))):

@@ -201,6 +201,7 @@ def numbered(names, number):
     return {name for name in names if name.startswith(f"{number}_")}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("slug", plots.units())
 def test_figures_and_tables_of_a_page_come_from_the_command(slug, tmp_path):
     number = slug.split("_")[0]
