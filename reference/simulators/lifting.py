@@ -98,7 +98,7 @@ def displace_by(state, δ):
 
 @compiled_apart
 def slow_down(system, state, start, label, speeds):
-    """Take the energy that lifting gave, from x = start (n, d), from the speeds; returns what is not paid, J."""
+    """Take the energy that lifting from start (n, d) gave from the speeds; returns what is not paid, J."""
     gain = np.zeros(len(start))
     for i in range(len(start)):
         for a in range(start.shape[1]):

@@ -1,4 +1,4 @@
-"""Landings without rebound, each at its own time; and the loop of ordinary steps against the steps one by one."""
+"""Landings without rebound, each at its own time; and the loop of ordinary steps against single steps."""
 
 import numpy as np
 import pytest
@@ -45,9 +45,7 @@ def test_a_block_lands_on_its_other_corner(half_width):
 
 
 def test_rocking_converges():
-    """About its corners the block turns to first order: half the step, about half the error; at every step the
-    energy only falls.
-    """
+    """About its corners it turns to first order: half the step, about half the error; energy only falls."""
     errors = []
     for rate in (60, 120, 240):
         case = CASES["rocking_block"]()
