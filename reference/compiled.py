@@ -67,7 +67,9 @@ def inner(function):
 
 def inner_apart(function):
     """As ``inner``, but called, not inlined: for long loops, which would make each of their callers long."""
-    return _compile(function, _nrt=False, no_cpython_wrapper=True, forceinline=False) if COMPILED else function
+    return (
+        _compile(function, _nrt=False, no_cpython_wrapper=True, forceinline=False) if COMPILED else function
+    )
 
 
 def _compile(function, *with_functions, **options):
@@ -76,9 +78,21 @@ def _compile(function, *with_functions, **options):
     Place.folder, before = folder, numba.config.CACHE_LOCATOR_CLASSES
     numba.config.CACHE_LOCATOR_CLASSES = f"{Place.__module__}.{Place.__name__}"
     try:
-        return numba.njit(function, **options)
+        return _for_any_value(numba.njit(function, **options))
     finally:
         numba.config.CACHE_LOCATOR_CLASSES = before
+
+
+def _for_any_value(dispatcher):
+    """Numba would compile a function again for each number that stands in a call, f(x, 0) and f(x, 1)."""
+    template = dispatcher.get_call_template
+
+    def get_call_template(args, kws):
+        any_value = numba.types.unliteral
+        return template([any_value(arg) for arg in args], {name: any_value(arg) for name, arg in kws.items()})
+
+    dispatcher.get_call_template = get_call_template
+    return dispatcher
 
 
 def merged(function):

@@ -20,7 +20,7 @@ Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 
 import numpy as np
 
-from ..compiled import compiled, inner, inner_apart
+from ..compiled import compiled_apart, inner, inner_apart
 from .augmented import ContactRows, dot, make_pass
 from .cone_interior import start_inside
 from .iteration import checked, solved_already, unsuitable
@@ -37,7 +37,7 @@ FEW, MANY, FROM_INSIDE = 12, 50, 1e-4  # Newton steps in a pass; ε after more t
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # w's rounding makes 1e-16/ε in λ: to polish, a larger ε
 
 
-@compiled
+@compiled_apart
 def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, history, near=NEAR):
     """u (n, k) and λ (m,), which holds the start and is changed in place. M (n, k, k), free (n, k).
 

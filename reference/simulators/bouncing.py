@@ -14,7 +14,7 @@ Slides S9, S10; lectures/05_contact.md.
 
 import numpy as np
 
-from ..compiled import compiled, inner
+from ..compiled import compiled, compiled_apart, inner
 from ..contacts import keys, part, parting_speed, put_row, spread
 from ..lcp.cone_newton import over_mass
 from .flight import scatter_velocities
@@ -26,7 +26,7 @@ MATTERS = 0.02  # of the energy of motion: a landing that takes less isn't worth
 MOST_TRIES = 60  # at the time of an impact
 
 
-@compiled
+@compiled_apart
 def look_ahead(contacts, speeds, filled, h, left, closed):
     """What these contacts (m) are about to do in the time left, s, of a step of h; w, m/s, is how fast they
     part, and rate how w would change without contact, m/s².

@@ -1,7 +1,7 @@
 """Steps in which nothing special happens, one after the other, as one compiled loop.
 
-Most steps have no impact, no overlap to be lifted, and room enough for their contacts. Those are done here, without
-going back to Python; the others are left to ``VelocityLCP.step``, which does the same for them, and more.
+Most steps have no impact, and room enough for their contacts. Those are done here, without going back to
+Python; the others are left to ``VelocityLCP.step``, which does the same for them, and more.
 
 Slides S9, S12; lectures/05_contact.md.
 """
@@ -16,17 +16,17 @@ from .smooth import all_finite
 
 
 @compiled
-def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, collider, contacts, held, pushed, t, h,
-          steps, limits, worst, lifted, timeless):  # fmt: skip
-    """Up to so many steps of h s from the time t; pushed: (keys (c,), forces (c, d)) of the contacts before.
+def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, collider, contacts, held,
+          pushed, t, h, steps, limits, worst, lifted, timeless):  # fmt: skip
+    """Up to so many steps of h s from the time t; pushed: keys (c,) and forces (c, d) of the contacts before.
 
-    Returns how many are done, and whether the last left the state as it was; keys and impulses of its contacts.
-    It ends before a step that is none of the ordinary, or whose state would not be finite. The energy that
-    lifting added, J, is added to lifted (1,).
+    Returns how many are done; whether the last left the state as it was; ``pushed`` now; and the impulses of
+    the last step. It ends before a step that is none of the ordinary, or whose state would not be finite. The
+    energy that lifting added, J, is added to lifted (1,).
     """
     solids, grid, pairs, spare, raw = collider
     before, start, impulse = state.y.copy(), state.x.copy(), pushed[1]
-    label = np.arange(len(start))
+    label = numbers(len(start))
     for done in range(steps):
         copy(state.y, before)
         lifts, unpaid = 0, 0.0
@@ -39,7 +39,7 @@ def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, c
                 break
             if lifts == 0:
                 copy_positions(state.x, start)
-                number(label)
+                label = numbers(len(start))
             raise_apart(state, contacts, held, speeds, label, limits, worst)
             lifts += 1
         if lifts > 0:
@@ -71,11 +71,10 @@ def copy_positions(x, to):
             to[i, a] = x[i, a]
 
 
-@inner
-def number(label):
-    """0, 1, 2, …"""
-    for i in range(len(label)):
-        label[i] = i
+@compiled(door=False)
+def numbers(n):
+    """0, 1, … n − 1."""
+    return np.arange(n)
 
 
 @lean
@@ -111,7 +110,7 @@ def over(impulse, h):
 @inner
 def same(a, b):
     """Whether two flat arrays are equal."""
+    differ = 0
     for k in range(len(a)):
-        if a[k] != b[k]:
-            return False
-    return True
+        differ += a[k] != b[k]
+    return differ == 0

@@ -46,7 +46,7 @@ class Limits(NamedTuple):
 
 
 class Turning(NamedTuple):
-    """Limits of the iteration by which a body turns (``splitting.drift_by_midpoint``), what it took, and room."""
+    """Limits of the iteration by which a body turns (``splitting.drift_by_midpoint``); what it took; room."""
 
     max_iterations: int
     tolerance: float
@@ -54,12 +54,13 @@ class Turning(NamedTuple):
     L: np.ndarray  # (r, 3), or (0, 3) in the plane
 
 
-@compiled
+@compiled_apart
 def flight(solve, system, state, work, speeds, contacts, held, known, pushed, h, share, limits, worst):
     """Move on by h s among these contacts and the joints' rows ``held``, without rebound.
 
     solve(rows, M, free, λ, limits, worst) → u⁺, λ in place. known (c,), pushed (c, d): keys and forces of
-    the contacts before, N. share: h over the time for which ``speeds`` was filled. Returns the keys (m,), the impulses (m, d) in the contacts' frames, and λ of all rows.
+    the contacts before, N. share: h over the time for which ``speeds`` was filled. Returns the keys (m,), the
+    impulses (m, d) in the contacts' frames, and λ of all rows.
     """
     rows, gap, free, key, λ = prepare(contacts, held, speeds, known, pushed, h, share, limits.bodies)
     moving = leave_out_rest(rows, speeds.M, speeds.before, free, λ, limits.tolerance)
@@ -193,7 +194,8 @@ def choose_velocities(rows, label, gap, before, after, λ, h, slack, used, room)
 def let_rest(label, rows, λ, before, free, after, tolerance, room):
     """Set to 0 what the contacts hold still: islands as slow as the solver's tolerance, before and after.
 
-    Their speed is measured by what the forces would make of it in this step. room (3, n), zeros. Returns how many bodies rest.
+    Their speed is measured by what the forces would make of it in this step. room (3, n), zeros. Returns how
+    many bodies rest.
     """
     n, k = before.shape
     push, speed, held = room[0], room[1], room[2]

@@ -57,24 +57,25 @@ def deepest(contacts):
     return depth
 
 
-@compiled
+@compiled_apart
 def raise_apart(solve, state, contacts, held, speeds, label, limits, worst):
     """One move that brings all gaps, as they are to first order, to 0 at least; friction has no part in it.
 
     label (n,): the islands of the moves before, and with those of this one.
     """
-    rows = upright_rows(contacts, held, speeds.before.shape[1])
-    δ = solve(rows, speeds.M, np.zeros_like(speeds.before), np.zeros(len(rows.c)), limits, worst)
+    rows, δ, λ = upright_rows(contacts, held, speeds.before)
+    δ = solve(rows, speeds.M, δ, λ, limits, worst)
     join_islands(label, rows.bodies)
     displace_by(state, δ)
 
 
 @compiled_apart
-def upright_rows(contacts, held, k):
-    """The rows of the contacts' normals, and those held."""
+def upright_rows(contacts, held, u):
+    """The rows of the contacts' normals, and those held; and zeros for u (n, k) and λ."""
     m = contacts.count[0]
     frictionless = contacts._replace(friction=np.zeros(m))
-    return join(contact_rows(frictionless, contacts.gap[:m], k), held)
+    rows = join(contact_rows(frictionless, contacts.gap[:m], u.shape[1]), held)
+    return rows, np.zeros_like(u), np.zeros(len(rows.c))
 
 
 @compiled
@@ -97,7 +98,7 @@ def displace_by(state, δ):
 
 @compiled_apart
 def slow_down(system, state, start, label, speeds):
-    """Take the energy that lifting gave, from x = start (n, d), from the speeds; returns what is not paid, J."""
+    """Take the energy that lifting from start (n, d) gave from the speeds; returns what is not paid, J."""
     gain = np.zeros(len(start))
     for i in range(len(start)):
         for a in range(start.shape[1]):

@@ -93,7 +93,8 @@ class VelocityLCP:
         solve = newton_in_cones if compiled_whole else self.solve_in_flight
         self.flight, self.raise_apart = bind(flight, solve), bind(raise_apart, solve)
         self.coast = None  # what takes ordinary steps by itself
-        if self.coasts and compiled_whole and self.collider and not len(self.held) and not scene.user_forces:
+        simple = not len(self.held) and not scene.user_forces
+        if self.coasts and compiled_whole and self.collider and simple:
             self.coast = bind(coast, self.fill_free, self.collider.detect, self.flight, self.raise_apart)
         self.begin()
 
@@ -144,8 +145,8 @@ class VelocityLCP:
         contacts = self.collider.contacts
         done, self.still, pushed, impulse = self.coast(
             self.system, self.state, self.work, self.speeds, self.collider.arrays, contacts,
-            self.held.rows_with(*self.held.in_flight(h)), (self.key, self.force), t, h, steps, self.limits, self.worst,
-            self.lifted, self.timeless,
+            self.held.rows_with(*self.held.in_flight(h)), (self.key, self.force), t, h, steps, self.limits,
+            self.worst, self.lifted, self.timeless,
         )  # fmt: skip
         self.key, self.force = pushed
         if done and self.recording:
@@ -218,7 +219,7 @@ class VelocityLCP:
         self.note_impulses(contacts, keys(contacts, self.limits.bodies), spread(rows, λ, m, self.d), λ, h)
 
     def note_impulses(self, contacts, key, impulse, λ, h):
-        """The same, of contacts with these keys (m,) and impulses (m, d); λ: of all rows, the joints' last."""
+        """The same, of contacts with these keys (m,) and impulses (m, d); λ (r,): of all rows."""
         self.touched.add(contacts, impulse)
         if self.warm:
             self.key, self.force = key, impulse / h
