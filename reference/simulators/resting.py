@@ -1,8 +1,8 @@
 """What rests costs no solve: islands that the forces of the step before still hold are left out.
 
 An island whose bodies all have velocity 0, and on which the forces of the step before, taken again, leave
-nothing to be done (within the solver's tolerance), is solved already: u⁺ = 0, and λ stays. This is looked up
-anew in each step, from the state alone. So a push, a ball that arrives, or another force of the user's wakes an
+nothing to be done (within the solver's tolerance), is solved already: u⁺ = 0, and λ stays. This is looked
+up anew in each step, from the state alone. So a push, a ball that arrives, or another force wakes an
 island at once, and nothing else is changed by its being left out.
 
 Slides S12; lectures/05_contact.md.
@@ -34,7 +34,9 @@ def leave_out_rest(rows, M, before, free, λ, tolerance):
     """The ``Moving`` part. M (n, k, k), before and free (n, k), λ (r,): from the forces before."""
     n = len(before)
     label, still = label_islands(rows.bodies, n), np.ones(n)
-    find_still(rows, M, before, free, λ, label, still, np.zeros((3, n)), np.zeros((n, before.shape[1])), tolerance)
+    find_still(
+        rows, M, before, free, λ, label, still, np.zeros((3, n)), np.zeros((n, before.shape[1])), tolerance
+    )
     number, count, blocks, size = np.full(n, -1), 0, 0, 0
     for q in range(len(rows.μ)):
         first, end = rows.block[q], rows.block[q + 1]
@@ -45,7 +47,12 @@ def leave_out_rest(rows, M, before, free, λ, tolerance):
             i = rows.bodies[first, side]
             if i >= 0 and number[i] < 0:
                 number[i], count = 0, count + 1
-    body, row, block, μ = np.empty(count, np.int64), np.empty(size, np.int64), np.zeros(blocks + 1, np.int64), np.empty(blocks)
+    body, row, block, μ = (
+        np.empty(count, np.int64),
+        np.empty(size, np.int64),
+        np.zeros(blocks + 1, np.int64),
+        np.empty(blocks),
+    )
     count = 0
     for i in range(n):
         if number[i] == 0:

@@ -177,7 +177,7 @@ def test_descent_by_newtons_law_and_no_slip_or_coulomb(dimension, share):
     μ = share * (1 / 3 if dimension == 2 else 2 / 7) * np.tan(angle)
     third = [1, -r, 0] if share >= 1 else [0, 0, 1]
     right = [G * np.sin(angle), 0, 0 if share >= 1 else μ * G * np.cos(angle)]
-    a, α, F = np.linalg.solve([[1, 0, 1], [0, k * r * r, -r], third], right)
+    a, α, _ = np.linalg.solve([[1, 0, 1], [0, k * r * r, -r], third], right)
     motion = CASES["descent"](share=share, dimension=dimension).exact(np.array([2.0]))
     assert motion.velocity[0, 1, 0] == pytest.approx(2 * a)
     ω = -motion.angular_velocity[0, 1] if dimension == 2 else motion.angular_velocity[0, 1, 1]
@@ -215,7 +215,6 @@ def test_bridge_against_its_forces_summed_along_it():
     ball_force, place = N * np.array([-n[0], -n[1]]) * [-1, 1], -along
     V_right = V - G + ball_force[1]
     assert V_right == pytest.approx(0, abs=1e-9 * H)  # nothing goes up or down in the middle, by symmetry
-    turn = e[k, 0] * V * -0.5 + e[k, 1] * -H * 0.5 * -1
     turn = -0.5 * (e[k, 0] * V + e[k, 1] * H) + place * (e[k, 0] * ball_force[1] - e[k, 1] * ball_force[0])
     right_end = np.array([H - ball_force[0], 0.0])
     turn += 0.5 * (e[k, 0] * right_end[1] - e[k, 1] * right_end[0])
@@ -299,7 +298,8 @@ def test_bad_parameters_are_named():
         ("heavy_on_two", {"heavy": 0}, "heavy"), ("pulled_block", {"share": -1}, "share"),
         ("descent", {"angle": 2.0}, "angle"), ("card_house", {"storeys": 2, "share": 0.9}, "share"),
         ("bridge", {"planks": 11}, "planks"), ("bridge", {"span": 1.5}, "span"),
-        ("kane", {"friction": 0.1}, "friction"), ("heap", {"n": 0}, "n must"), ("silo", {"opening": 0}, "opening"),
+        ("kane", {"friction": 0.1}, "friction"), ("heap", {"n": 0}, "n must"),
+        ("silo", {"opening": 0}, "opening"),
     ):  # fmt: skip
         with pytest.raises(ValueError, match=word):
             CASES[name](**parameters)

@@ -12,7 +12,7 @@ FRAME = 1 / 60
 
 
 def settling(d, order, n=12, seed=3):
-    """n bodies of several shapes in a narrow box, in the first moments of falling together; seen in an order."""
+    """n bodies of three shapes in a narrow box, as they begin to fall on each other; added in an order."""
     random, scene = np.random.default_rng(seed), ground(d)
     for side in (-1, 1):
         scene.add(Plane(at(d, -side, 0)), position=at(d, 1.2 * side, 0))
@@ -23,19 +23,19 @@ def settling(d, order, n=12, seed=3):
     for k in range(n):
         across = 0.0 if d == 2 else 0.55 * (k // 3 % 2) - 0.27
         place = at(d, 0.75 * (k % 3 - 1), 0.36 + 0.7 * (k // (3 if d == 2 else 6)), across)
-        places.append((place, random.normal(size=d) * 0.4, random.normal() if d == 2 else random.normal(size=3)))
+        places.append((place, random.normal(size=d) * 0.4, random.normal(size=() if d == 2 else 3)))
+    shapes = (Disc(0.3), Box((0.3, 0.3))) if d == 2 else (Sphere(0.25), Box((0.25,) * 3))
     for k in order:
-        shape = (Disc(0.3) if d == 2 else Sphere(0.25), Box((0.3,) * d if d == 2 else (0.25,) * 3), Capsule(0.2, 0.1))
-        place, velocity, spin = places[k]
-        scene.add(shape[k % 3], mass=1.0 + 0.3 * k, position=place, velocity=velocity, angular_velocity=spin)
+        shape, (place, velocity, spin) = (*shapes, Capsule(0.2, 0.1))[k % 3], places[k]
+        scene.add(shape, mass=1 + 0.3 * k, position=place, velocity=velocity, angular_velocity=spin)
     return scene, walls
 
 
 @pytest.mark.parametrize("d", [2, 3])
 @pytest.mark.parametrize("seed", range(3))
 def test_bodies_added_in_another_order_make_the_same_contacts_and_velocities(d, seed):
-    """Twelve bodies of three shapes, some of which slide, stick and part: the same contacts after a step, up to
-    the sign of n, and converged velocities within 100 × tolerance of the scale of w, g h and the speeds.
+    """Twelve bodies of three shapes, some of which slide, stick and part: the same contacts after a step, up
+    to the sign of n, and converged velocities within 100 × tolerance of the scale of w, the speeds.
     """
     order = np.random.default_rng(seed).permutation(12)
     (one, walls), (other, _) = settling(d, range(12)), settling(d, order)
@@ -53,7 +53,7 @@ def test_bodies_added_in_another_order_make_the_same_contacts_and_velocities(d, 
     scale = max(1.0, np.abs(runs[0].velocity).max())
     for name in ("velocity", "angular_velocity"):
         a, b = getattr(runs[0], name)[1], getattr(runs[1], name)[1]
-        np.testing.assert_allclose(a[number], b, atol=100 * 1e-12 * scale / 0.2)  # ω: over the smallest size, .2 m
+        np.testing.assert_allclose(a[number], b, atol=100 * 1e-12 * scale / 0.2)  # ω: over .2 m
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ def with_ball(d, scene, height=0.0):
 
 @DIMENSIONS
 def test_a_ball_moves_by_the_same_bits_whether_a_stack_rests_beside_it_or_not(d):
-    """It comes down when the stack has been at rest for some steps: then the stack has no part in anything."""
+    """It comes down when the stack has been at rest for some steps: then that has no part in anything."""
     alone = simulate(with_ball(d, ground(d), 0.1), 0.5, FRAME)
     beside = simulate(with_ball(d, stack(d, 4), 0.1), 0.5, FRAME)
     for name in ("position", "velocity", "angular_velocity"):

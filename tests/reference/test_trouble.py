@@ -1,10 +1,10 @@
 """Bad input and hard circumstances: for each a stated behaviour, and never nan (issue 6's last point).
 
-    deep overlap at the start    lifted apart at once; the energy that this adds is told in ``reason``
-    what has no room             as far apart as it goes, with what is left told by ``penetration``; no gain in speed
-    mass ratio of 1e8            rests, to 1e-8
-    Δt = .1 s                    rests, falls and bounces as with small steps; energy doesn't rise
-    speeds that tunnel           what rebounds is found within the step, at any speed; what doesn't, too
+deep overlap at the start    lifted apart at once; the energy that this adds is told in ``reason``
+what has no room             as far apart as it goes; ``penetration`` tells what is left; no gain in speed
+mass ratio of 1e8            rests, to 1e-8
+Δt = .1 s                    rests, falls and bounces as with small steps; energy doesn't rise
+speeds that tunnel           what rebounds is found within the step, at any speed; what doesn't, too
 """
 
 import numpy as np
@@ -18,7 +18,8 @@ DIMENSIONS = pytest.mark.parametrize("d", [2, 3])
 
 
 def finite(run):
-    return all(np.isfinite(a).all() for a in (run.position, run.velocity, run.orientation, run.angular_velocity))
+    arrays = run.position, run.velocity, run.orientation, run.angular_velocity
+    return all(np.isfinite(a).all() for a in arrays)
 
 
 def ball(d, r=0.5):
@@ -34,8 +35,9 @@ def test_balls_in_one_place_are_parted(d):
     run = simulate(scene, 1.0, FRAME, record_every=1)
     assert run.status == "ok" and finite(run) and "lifting overlaps apart has added" in run.reason
     assert run.penetration()[1:].max() < 1e-6
-    pairs = [np.linalg.norm(run.position[-1, i] - run.position[-1, j]) for i in range(1, 6) for j in range(1, i)]
-    assert min(pairs) > 1 - 1e-6 and run.position[-1, 1:, -1].min() > 0.5 - 1e-6
+    x = run.position[-1]
+    assert min(np.linalg.norm(x[i] - x[j]) for i in range(1, 6) for j in range(1, i)) > 1 - 1e-6
+    assert run.position[-1, 1:, -1].min() > 0.5 - 1e-6
     assert rise(run.energy()[1:]) < 1e-6 * run.energy()[1]  # after that first step nothing is gained any more
 
 
@@ -105,7 +107,8 @@ def test_two_bullets_meet_each_other(d):
     """Head on, e = 1 and equal masses: they exchange their speeds, though each step takes them 100 radii."""
     scene = Scene(gravity=(0,) * d)
     for side in (-1, 1):
-        scene.add(ball(d, 0.1), position=at(d, side * 5.0, 0), velocity=at(d, -side * 600.0, 0), restitution=1.0)
+        velocity = at(d, -side * 600.0, 0)
+        scene.add(ball(d, 0.1), position=at(d, side * 5.0, 0), velocity=velocity, restitution=1.0)
     run = simulate(scene, FRAME, FRAME)
     np.testing.assert_allclose(run.velocity[-1, :, 0], [-600, 600], rtol=1e-9)
 
@@ -116,7 +119,8 @@ def test_warm_starts_when_contacts_change_their_names(d):
     with and without it every record is the same, to the solver's tolerance.
     """
     scene = ground(d)
-    scene.add(Box((1.0, 0.25) if d == 2 else (1.0, 1.0, 0.25)), static=True, position=at(d, 0, 0.25), friction=0.3)
+    step = Box((1.0, 0.25) if d == 2 else (1.0, 1.0, 0.25))
+    scene.add(step, static=True, position=at(d, 0, 0.25), friction=0.3)
     scene.add(Box((0.3,) * d), position=at(d, 0.5, 0.8), velocity=at(d, 3.0, 0), friction=0.3)
     runs = [simulate(scene, 0.4, FRAME, warm_start=warm) for warm in (True, False)]
     ids = [sorted(map(tuple, c.bodies)) for c in (runs[0].contacts[k] for k in range(1, 25))]
