@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled, inner
+from ..compiled import compiled, compiled_apart, inner
 from ..contacts import label_islands
 from ..lcp.augmented import ContactRows, dot
 
@@ -29,35 +29,48 @@ class Moving(NamedTuple):
     still: np.ndarray  # (n,) of all bodies: 1 where they rest
 
 
-@compiled
+@compiled_apart
 def leave_out_rest(rows, M, before, free, λ, tolerance):
     """The ``Moving`` part. M (n, k, k), before and free (n, k), λ (r,): from the forces before."""
-    n = len(before)
+    n, k = before.shape
     label, still = label_islands(rows.bodies, n), np.ones(n)
-    find_still(
-        rows, M, before, free, λ, label, still, np.zeros((3, n)), np.zeros((n, before.shape[1])), tolerance
-    )
-    number, count, blocks, size = np.full(n, -1), 0, 0, 0
-    for q in range(len(rows.μ)):
-        first, end = rows.block[q], rows.block[q + 1]
-        if still[owner(rows, first)] > 0:
-            continue
-        blocks, size = blocks + 1, size + end - first
+    find_still(rows, M, before, free, λ, label, still, np.zeros((3, n)), np.zeros((n, k)), tolerance)
+    number, body = moving_bodies(rows, still)
+    row, block, μ = moving_rows(rows, still)
+    bodies = np.full((len(row), 2), -1)
+    for r in range(len(row)):
         for side in range(2):
-            i = rows.bodies[first, side]
-            if i >= 0 and number[i] < 0:
+            i = rows.bodies[row[r], side]
+            bodies[r, side] = number[i] if i >= 0 else -1
+    part = ContactRows(bodies, rows.J[row], rows.c[row], block, μ, rows.lower[row], rows.upper[row])
+    return Moving(part, M[body], free[body], λ[row], body, row, still)
+
+
+@compiled
+def moving_bodies(rows, still):
+    """A number for each body (n,) that has rows and doesn't rest, else −1; and whose each number is."""
+    number, count = np.full(len(still), -1), 0
+    for r in range(len(rows.c)):
+        for side in range(2):
+            i = rows.bodies[r, side]
+            if i >= 0 and still[i] == 0 and number[i] < 0:
                 number[i], count = 0, count + 1
-    body, row, block, μ = (
-        np.empty(count, np.int64),
-        np.empty(size, np.int64),
-        np.zeros(blocks + 1, np.int64),
-        np.empty(blocks),
-    )
-    count = 0
-    for i in range(n):
+    body, count = np.empty(count, np.int64), 0
+    for i in range(len(still)):
         if number[i] == 0:
             number[i], body[count] = count, i
             count += 1
+    return number, body
+
+
+@compiled
+def moving_rows(rows, still):
+    """Which rows are of bodies that don't rest; where their blocks begin; and the blocks' μ."""
+    blocks, size = 0, 0
+    for q in range(len(rows.μ)):
+        if still[owner(rows, rows.block[q])] == 0:
+            blocks, size = blocks + 1, size + rows.block[q + 1] - rows.block[q]
+    row, block, μ = np.empty(size, np.int64), np.zeros(blocks + 1, np.int64), np.empty(blocks)
     blocks, size = 0, 0
     for q in range(len(rows.μ)):
         if still[owner(rows, rows.block[q])] > 0:
@@ -67,16 +80,10 @@ def leave_out_rest(rows, M, before, free, λ, tolerance):
             size += 1
         μ[blocks], block[blocks + 1] = rows.μ[q], size
         blocks += 1
-    bodies = np.full((size, 2), -1)
-    for r in range(size):
-        for side in range(2):
-            i = rows.bodies[row[r], side]
-            bodies[r, side] = number[i] if i >= 0 else -1
-    part = ContactRows(bodies, rows.J[row], rows.c[row], block, μ, rows.lower[row], rows.upper[row])
-    return Moving(part, M[body], free[body], λ[row], body, row, still)
+    return row, block, μ
 
 
-@compiled
+@compiled_apart
 def put_back(moving, after, λ, free):
     """u⁺ of all bodies from that of the moving ones, and their λ into λ; free (n, k)."""
     whole = free.copy()
