@@ -10,6 +10,7 @@ Slides S12, S13; lectures/05_contact.md.
 
 import numpy as np
 
+from ..collision import ContactArrays
 from ..compiled import compiled, compiled_apart, inner
 from ..contacts import contact_rows, label_islands
 from ..correction import displace
@@ -72,8 +73,10 @@ def raise_apart(solve, state, contacts, held, speeds, label, limits, worst):
 @compiled_apart
 def upright_rows(contacts, held, u):
     """The rows of the contacts' normals, and those held; and zeros for u (n, k) and λ."""
-    m = contacts.count[0]
-    frictionless = contacts._replace(friction=np.zeros(m))
+    c, m = contacts, contacts.count[0]
+    frictionless = ContactArrays(
+        c.count, c.bodies, c.slot, c.id, c.point, c.frame, c.gap, c.arm, np.zeros(m), c.restitution
+    )
     rows = join(contact_rows(frictionless, contacts.gap[:m], u.shape[1]), held)
     return rows, np.zeros_like(u), np.zeros(len(rows.c))
 
