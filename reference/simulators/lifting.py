@@ -73,10 +73,9 @@ def raise_apart(solve, state, contacts, held, speeds, label, limits, worst):
 @compiled_apart
 def upright_rows(contacts, held, u):
     """The rows of the contacts' normals, and those held; and zeros for u (n, k) and λ."""
-    m = contacts.count[0]
-    c, none = contacts, np.zeros(m)  # Numba knows no _replace
+    c, m = contacts, contacts.count[0]
     frictionless = ContactArrays(
-        c.count, c.bodies, c.slot, c.id, c.point, c.frame, c.gap, c.arm, none, c.restitution
+        c.count, c.bodies, c.slot, c.id, c.point, c.frame, c.gap, c.arm, np.zeros(m), c.restitution
     )
     rows = join(contact_rows(frictionless, contacts.gap[:m], u.shape[1]), held)
     return rows, np.zeros_like(u), np.zeros(len(rows.c))
