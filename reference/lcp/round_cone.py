@@ -1,8 +1,8 @@
 """A round cone x_0 ≥ |x_1| and its points: what interior-point methods ask of it.
 
 The cone has a product, x ∘ y = (x·y, x_0 y_1 + y_0 x_1), for which e = (1, 0) is one. W is the symmetric
-map of the cone onto itself that takes two of its points, z and s, to one and the same, W z = W⁻¹ s. It is known
-by its size θ and a point ``turn`` of determinant 1.
+map of the cone onto itself that takes two of its points, z and s, to one and the same, W z = W⁻¹ s. It is
+known by its size θ and a point ``turn`` of determinant 1.
 
 Slides S14; lectures/08_newton_lcp.md. Source: Nesterov & Todd, SIAM J. Optim. 8 (1998) 324; Alizadeh &
 Goldfarb, Math. Programming 95 (2003) 3 (the product, and W).
