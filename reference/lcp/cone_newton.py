@@ -25,6 +25,7 @@ from .augmented import ContactRows, dot, make_pass
 from .cone_interior import start_inside
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
+from .shift import begin_shift, make_memory, mix_shifts, renew_shift
 from .smooth_pass import make_factor, solve_smooth
 from .solution import MAX_ITERATIONS, SOLVED, finish
 from .symmetry import why_no_box, why_no_cone
@@ -55,7 +56,7 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
             λ[r] = 0.0
         return u, 0, 0.0
     add_impulses(rows, M, λ, u)
-    answer = np.zeros((blocks, 2))
+    answer, memory = np.zeros((blocks, 2)), make_memory(blocks)
     if coulomb:
         begin_shift(rows, u, shift, answer)
     ε, error, drift, most, enough = near, np.inf, np.inf, FEW, 0.1 * tolerance * scale
@@ -70,7 +71,11 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
             weigh(ε, size, ρ)
             solve_smooth(rows, M, free, λ, ρ, shift, factor, u, enough, out, trial, most)
         before, drift = drift, renew(rows, out, λ, ρ) / scale
-        shifted = renew_shift(rows, out.w, shift, answer) / scale if coulomb else 0.0
+        shifted = 0.0
+        if coulomb and most == FEW:
+            shifted = renew_shift(rows, out.w, shift, answer) / scale
+        elif coulomb:
+            shifted = mix_shifts(rows, out.w, shift, memory, drift * scale) / scale
         error = max(drift, shifted)
         if passes < len(history):
             history[passes] = error
@@ -149,47 +154,6 @@ def weigh(ε, size, ρ):
     """ρ (B,), filled: 1/ε over A's entries."""
     for q in range(len(size)):
         ρ[q] = 1 / (ε * size[q])
-
-
-@inner_apart
-def begin_shift(rows, u, shift, answer):
-    """The shift that belongs to u, and an ``answer`` that knows of nothing before it."""
-    for q in range(len(shift)):
-        along = 0.0
-        for r in range(rows.block[q] + 1, rows.block[q + 1]):
-            w = rows.c[r]
-            for side in range(2):
-                i = rows.bodies[r, side]
-                if i >= 0:
-                    w += dot(rows.J[r, side], u[i])
-            along += w * w
-        shift[q] = max(rows.μ[q], 0.0) * np.sqrt(along)
-        answer[q, 0], answer[q, 1] = np.inf, 0.0
-
-
-@inner
-def renew_shift(rows, w, shift, answer):
-    """The shift ← μ|w_t|, which makes the law Coulomb's. Returns the worst change, a velocity.
-
-    μ|w_t| answers to a change of the shift, by μ²/(1 + μ²) of it where A is a multiple of 1. ``answer`` (B,
-    2) holds each contact's shift and μ|w_t| of the pass before; they tell by how much, and the shift goes
-    where it answers to itself (the secant method).
-    """
-    worst = 0.0
-    for q in range(len(shift)):
-        first = rows.block[q]
-        if rows.μ[q] <= 0:
-            continue
-        along = 0.0
-        for r in range(first + 1, rows.block[q + 1]):
-            along += w[r] ** 2
-        new = rows.μ[q] * np.sqrt(along)
-        change, changed = new - shift[q], shift[q] - answer[q, 0]
-        worst = max(worst, abs(change))
-        share = (new - answer[q, 1]) / changed if abs(changed) > 1e-12 * abs(new) else 0.0
-        answer[q, 0], answer[q, 1] = shift[q], new
-        shift[q] = max(0.0, shift[q] + change / (1 - min(max(share, -1.0), 0.8)))
-    return worst
 
 
 def cone_newton(problem, start=None, tolerance=1e-10, max_iterations=1000):

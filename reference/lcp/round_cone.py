@@ -13,14 +13,17 @@ import numpy as np
 from ..compiled import inner
 from .augmented import dot
 
+THIN = 1e-14  # √determinant over x_0: nearer to the surface rounding decides
+
 
 @inner
 def determinant(x):
     """x_0² − |x_1|²: positive inside the cone."""
-    total = x[0] * x[0]
+    along = 0.0
     for a in range(1, len(x)):
-        total -= x[a] * x[a]
-    return total
+        along += x[a] * x[a]
+    along = np.sqrt(along)
+    return (x[0] - along) * (x[0] + along)
 
 
 @inner
@@ -50,7 +53,8 @@ def to_boundary(x, dx):
 @inner
 def find_scaling(s, z, turn):
     """θ, and turn (d,) with determinant 1, of the W that takes z and s to the same point."""
-    det_s, det_z = np.sqrt(determinant(s)), np.sqrt(determinant(z))
+    det_s = np.sqrt(max(determinant(s), (THIN * s[0]) ** 2))
+    det_z = np.sqrt(max(determinant(z), (THIN * z[0]) ** 2))
     γ = np.sqrt(0.5 * (1 + dot(s, z) / (det_s * det_z)))
     for a in range(len(s)):
         turn[a] = 0.5 * (s[a] / det_s + (z[a] if a == 0 else -z[a]) / det_z) / γ
@@ -98,7 +102,7 @@ def aim(s, z, ds, dz, turn, θ, target, r, room):
     for a in range(1, d):
         right[a] = -2 * l[0] * l[a] - x[0] * y[a] - y[0] * x[a]
         along += l[a] * right[a]
-    x[0] = (l[0] * right[0] - along) / determinant(l[:d])
+    x[0] = (l[0] * right[0] - along) / max(determinant(l[:d]), (THIN * l[0]) ** 2)
     for a in range(1, d):
         x[a] = (right[a] - x[0] * l[a]) / l[0]
     for a in range(d):
