@@ -28,7 +28,6 @@ from .smooth import all_finite
 from .solving import StepSolver, Unsolvable, newton_in_cones
 from .touched import Touched
 
-
 CLOSED = 1e-9  # of the smallest body's size: a gap that counts as none
 
 
