@@ -131,7 +131,7 @@ def put_row(J, e, arm, sign):
             J[a], J[3 + a] = sign * e[a], sign * moment[a]
 
 
-@inner
+@lean
 def fill_masses(system, state, M):
     """M (n, k, k), block by block: the mass, and R I Rᵀ in the world frame; 1 for the turning of points,
     which have none.

@@ -124,7 +124,7 @@ def part_way(before, free, share):
     return between
 
 
-@inner
+@lean
 def gather_velocities(state, u):
     """u (n, k): v and ω of each body side by side; 0 for the turning of points."""
     d = state.x.shape[1]

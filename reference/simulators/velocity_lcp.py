@@ -11,42 +11,22 @@ Slides S9–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Nume
 
 import numpy as np
 
-from ..bodies import solve_mass
 from ..collision import find_contacts, make_collider
 from ..collision.find import make_contacts
-from ..compiled import bind, lean_apart
-from ..contacts import contact_rows, fill_masses, gather, keys, look_up, part, spread
+from ..compiled import bind
+from ..contacts import contact_rows, gather, keys, look_up, part, spread
 from ..forces import external_force, with_user_forces
 from ..trajectory import BodyState
 from .bouncing import MOST_IMPACTS, hop, strike
 from .coasting import coast, reach
-from .flight import Limits, Speeds, Turning, flight, gather_velocities
+from .flight import Limits, Turning, flight
+from .free import fill_free, make_speeds
 from .held import Held, join
 from .impacts import IMPACTS
 from .lifting import lift, raise_apart
 from .smooth import all_finite
 from .solving import StepSolver, Unsolvable, newton_in_cones
 from .touched import Touched
-
-
-@lean_apart
-def fill_free(force, system, t, h, state, speeds):
-    """The velocities after h without contact: u + Δt M⁻¹ f_e, into speeds.free; all other ``Speeds`` too."""
-    f, τ, before, free = speeds.f, speeds.τ, speeds.before, speeds.free
-    fill_masses(system, state, speeds.M)
-    gather_velocities(state, before)
-    force(system, t, state, f, τ)
-    solve_mass(system, state.q, f, τ)
-    d = f.shape[1]
-    for i in range(len(f)):
-        for a in range(before.shape[1]):
-            free[i, a] = before[i, a]
-        for a in range(d):
-            free[i, a] += h * f[i, a]
-        if i < len(τ):
-            for a in range(τ.shape[1]):
-                free[i, d + a] += h * τ[i, a]
-
 
 CLOSED = 1e-9  # of the smallest body's size: a gap that counts as none
 
@@ -74,13 +54,7 @@ class VelocityLCP:
         self.fill_free = bind(fill_free, force)
         n, self.d = self.state.x.shape
         self.k = 6 if self.d == 3 else 3
-        self.speeds = Speeds(
-            np.zeros((n, self.k, self.k)),
-            np.zeros((n, self.k)),
-            np.zeros((n, self.k)),
-            np.zeros((n, self.d)),
-            np.zeros_like(self.state.ω),
-        )
+        self.speeds = make_speeds(n, self.d, self.k, self.state.ω)
         self.M, self.before, self.free, _, _ = self.speeds
         self.work = Turning(30, 1e-15, np.zeros(2), np.zeros_like(self.state.L))
         radius = self.collider.solids.form.radius if self.collider else np.zeros(0)
