@@ -27,7 +27,7 @@ from .smooth_pass import fill_matrix
 
 MOST_STEPS, CLOSE = 40, 1e-10
 SMALLEST_FRICTION = 1e-3  # less is taken for this: z and s would be too thin to be computed with
-BACK = 0.99  # of the way to where a cone ends
+BACK, STUCK = 0.99, 0.01  # of the way to where a cone ends; a way that is none
 FIRM = 1e-4  # ε of what has bounds on both sides, or none: it is held, as if it had none
 
 
@@ -76,6 +76,8 @@ def start_inside(rows, M, free, λ, u, size, scale, factor, out):
             pull(rows, out, inside, right)
             solve(factor.blocks, right, factor.move)
             way = move_along(rows, out.slope, factor.move, inside)
+        if not way > STUCK:  # as far as rounding lets it come
+            break
         advance(min(1.0, BACK * way), factor.move, u, inside)
         steps += 1
     for i in range(m):

@@ -144,7 +144,8 @@ def renew(rows, out, λ, ρ):
     worst = 0.0
     for q in range(len(ρ)):
         for r in range(rows.block[q], rows.block[q + 1]):
-            worst = max(worst, abs(out.λ[r] - λ[r]) / ρ[q])
+            change = abs(out.λ[r] - λ[r]) / ρ[q]
+            worst = max(worst, change) if change < np.inf else np.inf  # nan must not pass for 0
             λ[r] = out.λ[r]
     return worst
 
