@@ -206,7 +206,9 @@ def pull(rows, out, inside, right):
 
 @inner_apart
 def move_along(rows, slope, du, inside):
-    """ds and dz that go with du. Returns how far to go, at most 1, until the first cone ends."""
+    """ds and dz that go with du. Returns how far to go, at most 1, until the first cone ends: 0 if that is
+    not finite.
+    """
     way, s, z, ds, dz = 1.0, inside.s, inside.z, inside.ds, inside.dz
     for q in range(len(rows.μ)):
         first, end = rows.block[q], rows.block[q + 1]
@@ -218,6 +220,8 @@ def move_along(rows, slope, du, inside):
                     ds[c] += dot(rows.J[c, side], du[i])
         for c in range(first, end):
             dz[c] = inside.r[c] - weighted(rows, slope, q, c, ds)
+            if not abs(ds[c]) + abs(dz[c]) < np.inf:
+                return 0.0
         if inside.θ[q] < 0:
             ds[first] = 0.0
         else:
