@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
+from ..compiled import compiled, inner, inner_apart
 
 OPEN, STICKS, SLIDES = 0, 1, 2  # 3: slides the other way, in the plane
 
@@ -47,8 +47,8 @@ def make_pass(rows, n, k):
     return Pass(np.empty(m), np.empty(m), np.zeros((m, 3)), np.zeros(blocks, np.int64), np.empty((n, k)))
 
 
-@compiled
-def inner(a, b):
+@inner
+def dot(a, b):
     """Σ a_k b_k."""
     total = 0.0
     for k in range(len(a)):
@@ -56,7 +56,7 @@ def inner(a, b):
     return total
 
 
-@compiled_apart
+@inner_apart
 def evaluate(rows, M, free, λ, ρ, shift, u, out):
     """The augmented Lagrangian at u, with λ̂, P′ and the gradient into ``out``."""
     value, k = 0.0, u.shape[1]
@@ -74,7 +74,7 @@ def evaluate(rows, M, free, λ, ρ, shift, u, out):
             for side in range(2):
                 i = rows.bodies[r, side]
                 if i >= 0:
-                    w += inner(rows.J[r, side], u[i])
+                    w += dot(rows.J[r, side], u[i])
             out.w[r] = w
             out.λ[r] = λ[r] - ρ[q] * (w + shift[q] if r == first else w)
         value += project(rows, q, first, end, out) / ρ[q]
@@ -87,7 +87,7 @@ def evaluate(rows, M, free, λ, ρ, shift, u, out):
     return value
 
 
-@compiled
+@inner
 def project(rows, q, first, end, out):
     """P of block q in place, P′ and the state; returns y·P(y) − ½ P(y)², whose gradient P is."""
     y, μ = out.λ, rows.μ[q]
@@ -116,7 +116,7 @@ def project(rows, q, first, end, out):
     return slide(rows, q, n, tangential, out)
 
 
-@compiled
+@inner
 def slide(rows, q, n, tangential, out):
     """P on the cone's surface: f (1, μ t), with t the unit vector along which y pulls, f its share of y."""
     μ, first, d = rows.μ[q], rows.block[q], rows.block[q + 1] - rows.block[q]
@@ -136,7 +136,7 @@ def slide(rows, q, n, tangential, out):
     return 0.5 * (1 + μ * μ) * f * f
 
 
-@compiled
+@inner
 def put_slope(slope, r, a, b, c):
     """Row r of P′."""
     slope[r, 0], slope[r, 1], slope[r, 2] = a, b, c

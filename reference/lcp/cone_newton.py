@@ -20,10 +20,12 @@ Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
-from .augmented import ContactRows, evaluate, inner, make_pass
+from ..compiled import compiled_apart, inner, inner_apart
+from .augmented import ContactRows, dot, make_pass
+from .cone_interior import start_inside
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
+from .shift import begin_shift, make_memory, mix_shifts, renew_shift
 from .smooth_pass import make_factor, solve_smooth
 from .solution import MAX_ITERATIONS, SOLVED, finish
 from .symmetry import why_no_box, why_no_cone
@@ -32,10 +34,11 @@ from .velocity_form import velocity_form
 __all__ = ["ContactRows", "cone_newton", "cone_newton_kernel"]
 
 NEAR, SMALLEST = 1e-6, 1e-10  # ε at first, and where passes shrink the error too slowly
+FEW, MANY, FROM_INSIDE = 12, 50, 1e-4  # Newton steps in a pass; ε after more than a few of them
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # w's rounding makes 1e-16/ε in λ: to polish, a larger ε
 
 
-@compiled
+@compiled_apart
 def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, history, near=NEAR):
     """u (n, k) and λ (m,), which holds the start and is changed in place. M (n, k, k), free (n, k).
 
@@ -49,33 +52,43 @@ def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, hi
     size, shift, ρ = np.empty(blocks), np.zeros(blocks), np.empty(blocks)
     u, scale = free.copy(), block_sizes(rows, M, free, size)
     if scale == 0:
-        λ[:] = 0
+        for r in range(len(λ)):
+            λ[r] = 0.0
         return u, 0, 0.0
     add_impulses(rows, M, λ, u)
-    answer = np.zeros((blocks, 2))
+    answer, memory = np.zeros((blocks, 2)), make_memory(blocks)
     if coulomb:
-        evaluate(rows, M, free, λ, np.ones(blocks), shift, u, out)
-        renew_shift(rows, out.w, shift, answer)
-        answer[:, 0], answer[:, 1] = np.inf, 0.0
-    ε, error, drift = near, np.inf, np.inf
+        begin_shift(rows, u, shift, answer)
+    ε, error, drift, most, enough = near, np.inf, np.inf, FEW, 0.1 * tolerance * scale
     for passes in range(max_iterations):
-        for q in range(blocks):
-            ρ[q] = 1 / (ε * size[q])
-        solve_smooth(rows, M, free, λ, ρ, shift, factor, u, 0.1 * tolerance * scale, out, trial)
+        weigh(ε, size, ρ)
+        steps = solve_smooth(rows, M, free, λ, ρ, shift, factor, u, enough, out, trial, most)
+        if steps == most == FEW:  # too many states to try one after another: come from inside the cones
+            start_inside(rows, M, free, λ, u, size, scale, factor, out)
+            if coulomb:
+                begin_shift(rows, u, shift, answer)
+            ε, drift, most = FROM_INSIDE, np.inf, MANY
+            weigh(ε, size, ρ)
+            solve_smooth(rows, M, free, λ, ρ, shift, factor, u, enough, out, trial, most)
         before, drift = drift, renew(rows, out, λ, ρ) / scale
-        shifted = renew_shift(rows, out.w, shift, answer) / scale if coulomb else 0.0
+        shifted = 0.0
+        if coulomb and most == FEW:
+            shifted = renew_shift(rows, out.w, shift, answer) / scale
+        elif coulomb:
+            shifted = mix_shifts(rows, out.w, shift, memory, drift * scale) / scale
         error = max(drift, shifted)
         if passes < len(history):
             history[passes] = error
         if error <= tolerance:
             return u, passes + 1, error
-        if drift > max(0.25 * before, shifted) and ε > SMALLEST:
+        if drift > max(0.25 * before, shifted) and ε > SMALLEST and most == FEW:
             ε *= 0.01
-            factor.made[:] = -1
+            for q in range(blocks):
+                factor.made[q] = -1
     return u, max_iterations, error
 
 
-@compiled_apart
+@inner_apart
 def block_sizes(rows, M, free, size):
     """A's largest diagonal entry of each block; returns the worst |w| of the free velocities."""
     scale = 0.0
@@ -86,14 +99,14 @@ def block_sizes(rows, M, free, size):
             for side in range(2):
                 i = rows.bodies[r, side]
                 if i >= 0:
-                    w += inner(rows.J[r, side], free[i])
+                    w += dot(rows.J[r, side], free[i])
                     diagonal += over_mass(M[i], rows.J[r, side])
             size[q] = max(size[q], diagonal)
             scale = max(scale, abs(w))
     return scale
 
 
-@compiled
+@inner
 def add_impulses(rows, M, λ, u):
     """u + M⁻¹ Jᵀ λ, roughly: with the diagonal of M, since it is only where Newton's method starts."""
     for r in range(len(λ)):
@@ -104,7 +117,7 @@ def add_impulses(rows, M, λ, u):
                     u[i, a] += rows.J[r, side, a] * λ[r] / M[i, a, a]
 
 
-@compiled
+@inner
 def over_mass(M, a):
     """a · M⁻¹ a for one body: in space masses first, then the inertia (3, 3); else a diagonal M."""
     if len(a) != 6:
@@ -125,40 +138,23 @@ def over_mass(M, a):
     return (a[0] ** 2 + a[1] ** 2 + a[2] ** 2) / M[0, 0] + turning / determinant
 
 
-@compiled
+@inner
 def renew(rows, out, λ, ρ):
     """λ ← λ̂. Returns the worst change, as a velocity."""
     worst = 0.0
     for q in range(len(ρ)):
         for r in range(rows.block[q], rows.block[q + 1]):
-            worst = max(worst, abs(out.λ[r] - λ[r]) / ρ[q])
+            change = abs(out.λ[r] - λ[r]) / ρ[q]
+            worst = max(worst, change) if change < np.inf else np.inf  # nan must not pass for 0
             λ[r] = out.λ[r]
     return worst
 
 
-@compiled
-def renew_shift(rows, w, shift, answer):
-    """The shift ← μ|w_t|, which makes the law Coulomb's. Returns the worst change, a velocity.
-
-    μ|w_t| answers to a change of the shift, by μ²/(1 + μ²) of it where A is a multiple of 1. ``answer`` (B,
-    2) holds each contact's shift and μ|w_t| of the pass before; they tell by how much, and the shift goes
-    where it answers to itself (the secant method).
-    """
-    worst = 0.0
-    for q in range(len(shift)):
-        first = rows.block[q]
-        if rows.μ[q] <= 0:
-            continue
-        along = 0.0
-        for r in range(first + 1, rows.block[q + 1]):
-            along += w[r] ** 2
-        new = rows.μ[q] * np.sqrt(along)
-        change, changed = new - shift[q], shift[q] - answer[q, 0]
-        worst = max(worst, abs(change))
-        share = (new - answer[q, 1]) / changed if abs(changed) > 1e-12 * abs(new) else 0.0
-        answer[q, 0], answer[q, 1] = shift[q], new
-        shift[q] = max(0.0, shift[q] + change / (1 - min(max(share, -1.0), 0.8)))
-    return worst
+@inner
+def weigh(ε, size, ρ):
+    """ρ (B,), filled: 1/ε over A's entries."""
+    for q in range(len(size)):
+        ρ[q] = 1 / (ε * size[q])
 
 
 def cone_newton(problem, start=None, tolerance=1e-10, max_iterations=1000):

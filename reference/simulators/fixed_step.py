@@ -34,6 +34,8 @@ from .velocity_lcp import VelocityLCP
 class FixedStep(VelocityLCP):
     """A scene made ready to run by S9's step, with a correction that is not the projection."""
 
+    coasts = False
+
     def __init__(self, scene, bodies, settings):
         self.correction, self.parameters = settings.correction
         super().__init__(scene, bodies, settings)
