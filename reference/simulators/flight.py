@@ -61,19 +61,20 @@ def flight(solve, system, state, work, speeds, contacts, held, known, pushed, h,
     the contacts before, N. share: h over the time for which ``speeds`` was filled. Returns the keys (m,), the
     impulses (m, d) in the contacts' frames, and λ of all rows.
     """
-    rows, gap, free, key, λ = prepare(contacts, held, speeds, known, pushed, h, share, limits.bodies)
+    rows, gap, free, key, λ = prepare(contacts, held, speeds, known, pushed, h, share, limits)
     after = solve(rows, speeds.M, free, λ, limits, worst)
     finish(system, state, work, speeds.before, rows, gap, free, after, λ, h, limits)
     return key, spread(rows, λ, len(key), state.x.shape[1]), λ
 
 
 @compiled_apart
-def prepare(contacts, held, speeds, known, pushed, h, share, bodies):
+def prepare(contacts, held, speeds, known, pushed, h, share, limits):
     """The problem of a flight: its rows, their gaps, the free velocities (n, k), the contacts' keys, and the
     λ that the forces before would make in h.
     """
-    rows = join(contact_rows(contacts, closing_speeds(contacts, h), speeds.before.shape[1]), held)
-    key = keys(contacts, bodies)
+    closing = closing_speeds(contacts, h, limits.closed)
+    rows = join(contact_rows(contacts, closing, speeds.before.shape[1]), held)
+    key = keys(contacts, limits.bodies)
     λ = gather(rows, look_up(known, pushed, key), held.force)
     for r in range(len(λ)):
         λ[r] *= h
@@ -103,11 +104,11 @@ def gaps(contacts, held):
 
 
 @compiled(door=False)
-def closing_speeds(contacts, h):
-    """How fast each contact may close, m/s: gap/h (m,), 0 where there is none."""
+def closing_speeds(contacts, h, closed):
+    """How fast each contact may close, m/s: gap/h (m,); 0 where the gap counts as none, or rest would creep."""
     target = np.empty(contacts.count[0])
     for q in range(len(target)):
-        target[q] = max(contacts.gap[q], 0.0) / h
+        target[q] = contacts.gap[q] / h if contacts.gap[q] > closed else 0.0
     return target
 
 
