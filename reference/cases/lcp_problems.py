@@ -35,7 +35,7 @@ class Known:
     w: np.ndarray | None = None
 
     def error(self, λ):
-        """max |λ − answer| / max |answer|; the plain error where the answer is 0. Or that of w over max |b|."""
+        """max |λ − answer| / max |answer|; the plain error where the answer is 0. Or w's over max |b|."""
         if self.answer is None:
             return np.abs(self.problem.w(np.asarray(λ)) - self.w).max() / np.abs(self.problem.b).max()
         size = np.abs(self.answer).max(initial=0)

@@ -62,7 +62,7 @@ def flight(solve, system, state, work, speeds, contacts, held, known, pushed, h,
     the contacts before, N. share: h over the time for which ``speeds`` was filled. Returns the keys (m,), the
     impulses (m, d) in the contacts' frames, and λ of all rows.
     """
-    rows, gap, free, key, λ = prepare(contacts, held, speeds, known, pushed, h, share, limits.bodies)
+    rows, gap, free, key, λ = prepare(contacts, held, speeds, known, pushed, h, share, limits)
     moving = leave_out_rest(rows, speeds.M, speeds.before, free, λ, limits.tolerance)
     found = solve(moving.rows, moving.M, moving.free, moving.λ, limits, worst)
     after = put_back(moving, found, λ, free)
@@ -71,12 +71,13 @@ def flight(solve, system, state, work, speeds, contacts, held, known, pushed, h,
 
 
 @compiled_apart
-def prepare(contacts, held, speeds, known, pushed, h, share, bodies):
+def prepare(contacts, held, speeds, known, pushed, h, share, limits):
     """The problem of a flight: its rows, their gaps, the free velocities (n, k), the contacts' keys, and the
     λ that the forces before would make in h.
     """
-    rows = join(contact_rows(contacts, closing_speeds(contacts, h), speeds.before.shape[1]), held)
-    key = keys(contacts, bodies)
+    closing = closing_speeds(contacts, h, limits.closed)
+    rows = join(contact_rows(contacts, closing, speeds.before.shape[1]), held)
+    key = keys(contacts, limits.bodies)
     λ = gather(rows, look_up(known, pushed, key), held.force)
     for r in range(len(λ)):
         λ[r] *= h
@@ -106,11 +107,11 @@ def gaps(contacts, held):
 
 
 @compiled(door=False)
-def closing_speeds(contacts, h):
-    """How fast each contact may close, m/s: gap/h (m,), 0 where there is none."""
+def closing_speeds(contacts, h, closed):
+    """How fast each contact may close, m/s (m,): gap/h; 0 where a gap counts as none, lest rest creep."""
     target = np.empty(contacts.count[0])
     for q in range(len(target)):
-        target[q] = max(contacts.gap[q], 0.0) / h
+        target[q] = contacts.gap[q] / h if contacts.gap[q] > closed else 0.0
     return target
 
 
