@@ -105,7 +105,7 @@ def gaps(contacts, held):
 
 @compiled(door=False)
 def closing_speeds(contacts, h, closed):
-    """How fast each contact may close, m/s: gap/h (m,); 0 where the gap counts as none, or rest would creep."""
+    """How fast each contact may close, m/s: gap/h (m,); 0 where a gap counts as none, or rest would creep."""
     target = np.empty(contacts.count[0])
     for q in range(len(target)):
         target[q] = contacts.gap[q] / h if contacts.gap[q] > closed else 0.0
