@@ -15,7 +15,7 @@ from .scene import Scene
 from .shapes import Box, Plane, Point
 from .simulators import Simulation
 
-CONTACT = 8  # times what an integrator takes: measured
+CONTACT = 8  # times what an integrator takes, roughly
 
 
 def main():

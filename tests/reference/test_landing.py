@@ -98,7 +98,8 @@ def test_recorded_impulses_are_what_changes_the_momentum():
             np.add.at(total, contacts.bodies[:, 0], -pushes)
             np.add.at(total, contacts.bodies[:, 1], pushes)
             given = change - scene_gravity(run) * (run.time[k] - run.time[k - 1])
-            np.testing.assert_allclose(total[2:], given[2:], atol=1e-9)
+            # what is lifted apart by 1e-9 m pays for it with its speed, not by a contact: some 1e-8 m/s
+            np.testing.assert_allclose(total[2:], given[2:], atol=1e-7)
 
 
 def scene_gravity(run):
