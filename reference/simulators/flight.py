@@ -108,11 +108,7 @@ def gaps(contacts, held):
 
 @compiled(door=False)
 def closing_speeds(contacts, h, closed):
-<<<<<<< HEAD
     """How fast each contact may close, m/s (m,): gap/h; 0 where a gap counts as none, lest rest creep."""
-=======
-    """How fast each contact may close, m/s: gap/h (m,); 0 where a gap counts as none, or rest would creep."""
->>>>>>> fast
     target = np.empty(contacts.count[0])
     for q in range(len(target)):
         target[q] = contacts.gap[q] / h if contacts.gap[q] > closed else 0.0
