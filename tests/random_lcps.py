@@ -94,18 +94,24 @@ def scale(A, b, lower, upper, friction):
     )
 
 
+def unseen(A, b, λ, d):
+    """What no solver can see of each r_i (n,): w_i is a sum of n + 1 products of doubles, so it is off by up
+    to n + 1 roundings of the sum of their sizes, and clip and quotient add one each.
+    """
+    return (len(b) + 3) * 2.0**-53 * (np.abs(A) @ np.abs(λ) + np.abs(b)) / np.array(d, dtype=float)
+
+
 def is_answer(A, b, lower, upper, friction, λ, tolerance=1e-10, size=None):
     """Whether λ solves it: in exact numbers no |r_i| is above tolerance times ``size``, the scale.
 
-    Allowed besides is only what the solver can't see: w_i is a sum of n + 1 products of doubles, so it is off
-    by up to n + 1 roundings of the sum of their sizes, and clip and quotient add one each.
+    Allowed besides is only what is ``unseen``.
     A row of zeros has no d to make a length of w_i = b_i: there λ_i must be as near to its very bound.
     """
     if not np.isfinite(λ).all():
         return False
     size = scale(A, b, lower, upper, friction) if size is None else size
     r, _, d = gaps(A, b, lower, upper, friction, λ)
-    rounding = (len(b) + 3) * 2.0**-53 * (np.abs(A) @ np.abs(λ) + np.abs(b)) / np.array(d, dtype=float)
+    rounding = unseen(A, b, λ, d)
     near = all(abs(x) <= tolerance * size + off for x, off in zip(r, rounding, strict=True))
     low, high = limits(lower, upper, friction, λ)
     for i in np.flatnonzero(~np.abs(A).any(axis=1) & (np.array(b) != 0)):
@@ -114,18 +120,18 @@ def is_answer(A, b, lower, upper, friction, λ, tolerance=1e-10, size=None):
     return near
 
 
-def farthest(A, b, lower, upper, tolerance=1e-10):
+def farthest(A, b, lower, upper, λ, tolerance=1e-10):
     """How far, in the 2-norm, a solved λ may be from the one solution, where A is positive definite.
 
     With r the gaps of λ and e its error, y = λ − r is within the bounds, and the two inequalities that y and
     the solution satisfy give eᵀAe ≤ (A e)ᵀr + (D r)ᵀe, so ‖e‖ ≤ (‖A‖ + max d) ‖r‖ / c with c the least
-    eigenvalue of (A + Aᵀ)/2; and ‖r‖ ≤ √n tolerance max |r(λ⁰)|.
+    eigenvalue of (A + Aᵀ)/2; and |r_i| is at most tolerance max |r(λ⁰)|, and what is ``unseen``.
     """
     if not len(b):
         return 0.0
-    d = max(gaps(A, b, lower, upper, None, origin(lower, upper, None))[2])
-    r = np.sqrt(len(b)) * tolerance * scale(A, b, lower, upper, None)
-    return (np.linalg.norm(A, 2) + float(d)) / np.linalg.eigvalsh((A + A.T) / 2)[0] * r
+    d = gaps(A, b, lower, upper, None, λ)[2]
+    r = np.linalg.norm(tolerance * scale(A, b, lower, upper, None) + unseen(A, b, λ, d))
+    return (np.linalg.norm(A, 2) + float(max(d))) / np.linalg.eigvalsh((A + A.T) / 2)[0] * r
 
 
 def solvable(A, b, lower, upper, friction):

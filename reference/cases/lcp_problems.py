@@ -35,9 +35,9 @@ class Known:
     w: np.ndarray | None = None
 
     def error(self, λ):
-        """max |λ − answer| / max |answer|; the plain error where the answer is 0. Or w's over max |b|."""
+        """max |λ − answer| / max |answer|, the plain error where that is 0; or that of w over max |b|."""
         if self.answer is None:
-            return np.abs(self.problem.w(np.asarray(λ)) - self.w).max() / np.abs(self.problem.b).max()
+            return np.abs(self.problem.w(λ) - self.w).max() / np.abs(self.problem.b).max()
         size = np.abs(self.answer).max(initial=0)
         return np.abs(np.asarray(λ) - self.answer).max(initial=0) / (size if size > 0 else 1)
 

@@ -52,7 +52,7 @@ def check_unique(seed, solutions, A, b, lower, upper):
     pivoting = [solutions[name] for name in (*PIVOTING, "enumeration")]
     assert all(solution.solved for solution in pivoting), f"seed {seed}: {pivoting}"
     size = max(np.abs(solution.lam).max(initial=0) for solution in pivoting)
-    within = random_lcps.farthest(A, b, lower, upper)
+    within = random_lcps.farthest(A, b, lower, upper, pivoting[0].lam)
     for one, other in itertools.combinations((s for s in solutions.values() if s.solved), 2):
         apart = np.linalg.norm(one.lam - other.lam)
         assert apart <= 2 * within, f"seed {seed}: {one.lam} and {other.lam}"
