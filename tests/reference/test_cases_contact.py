@@ -241,7 +241,7 @@ def test_silo_law_by_quadrature():
     assert flow / 2**1.5 == pytest.approx(RATE, abs=5e-4)
 
 
-@pytest.mark.parametrize(("dimension", "n"), [(2, 30), (3, 20)])
+@pytest.mark.parametrize(("dimension", "n"), [(2, 30), pytest.param(3, 20, marks=pytest.mark.study)])
 def test_a_small_heap_comes_to_rest(dimension, n):
     """On the box stands its weight, to 1e-6; nothing went through, or gained energy."""
     case = CASES["heap"](n=n, dimension=dimension, duration=4.0)
