@@ -3,9 +3,30 @@
 import numpy as np
 import pytest
 
-from reference.compiled import plain
+from reference.compiled import compiled
 from reference.lcp.block_cholesky import add_block, clear, factorise, make_block_factor, solve
 from reference.lcp.body_order import find_pattern
+
+
+@compiled
+def empty(pairs, n, k):
+    """A factor of zeros. What is compiled without a door to Python is called by a compiled function."""
+    factor = make_block_factor(pairs, n, k)
+    clear(factor)
+    return factor
+
+
+@compiled
+def add(factor, i, j, row, column, weight):
+    add_block(factor, i, j, row, column, weight)
+
+
+@compiled
+def factorise_and_solve(factor, x, out):
+    good = factorise(factor)
+    if good:
+        solve(factor, x, out)
+    return good
 
 
 def random_pairs(random, n, m):
@@ -57,8 +78,7 @@ def test_the_factor_solves_what_numpy_solves(seed, k):
     random = np.random.default_rng(seed)
     n = int(random.integers(1, 15))
     pairs = random_pairs(random, n, 3 * n)
-    factor, whole = make_block_factor(pairs, n, k), np.zeros((n, k, n, k))
-    clear(factor)
+    factor, whole = empty(pairs, n, k), np.zeros((n, k, n, k))
     for p, i in enumerate(factor.pattern.place):
         factor.diagonal[i] = whole[p, :, p] = np.eye(k)
     for pair in pairs:
@@ -66,17 +86,15 @@ def test_the_factor_solves_what_numpy_solves(seed, k):
         for a in range(2):
             for b in range(2):
                 if pair[a] >= 0 and pair[b] >= 0:
-                    plain(add_block)(factor, pair[a], pair[b], rows[a], rows[b], 2.0)
+                    add(factor, pair[a], pair[b], rows[a], rows[b], 2.0)
                     whole[pair[a], :, pair[b]] += 2.0 * np.outer(rows[a], rows[b])
     x, found = random.normal(size=(n, k)), np.zeros((n, k))
-    assert plain(factorise)(factor)
-    plain(solve)(factor, x, found)
+    assert factorise_and_solve(factor, x, found)
     expected = np.linalg.solve(whole.reshape(n * k, n * k), x.ravel())
     np.testing.assert_allclose(found.ravel(), expected, rtol=1e-9, atol=1e-11)
 
 
 def test_a_matrix_that_is_not_positive_is_told():
-    factor = make_block_factor(np.array([(0, 1)]), 2, 3)
-    clear(factor)
+    factor = empty(np.array([(0, 1)]), 2, 3)
     factor.diagonal[0] = np.eye(3)
-    assert not plain(factorise)(factor)
+    assert not factorise_and_solve(factor, np.ones((2, 3)), np.ones((2, 3)))
