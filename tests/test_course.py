@@ -551,6 +551,33 @@ def test_the_pins_are_pins():
     assert pybullet.startswith("pybullet==3.2.7 ; python_full_version < '3.12'")
 
 
+GROUPED = """import os, pathlib, pytest
+@pytest.mark.xdist_group("one")
+@pytest.mark.parametrize("k", range(8))
+def test(k):
+    pathlib.Path(os.environ["PYTEST_XDIST_WORKER"]).touch()
+"""
+
+
+def test_the_tests_of_a_group_run_in_one_process(tmp_path):
+    (tmp_path / "test_grouped.py").write_text(GROUPED, encoding="utf-8")
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "-n",
+        "2",
+        "--dist",
+        "loadgroup",
+        "-p",
+        "no:cacheprovider",
+    ]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert "8 passed" in done.stdout, done.stdout + done.stderr
+    assert len(list(tmp_path.glob("gw*"))) == 1  # and not two, as with pytest 9.2
+
+
 @pytest.mark.slow
 def test_a_fresh_clone_sets_itself_up_and_serves(tmp_path):
     """With the network or not at all: the whole way of a new student, but for the browser."""
