@@ -21,7 +21,9 @@ Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 import numpy as np
 
 from ..compiled import compiled, compiled_apart
-from .augmented import ContactRows, evaluate, inner, make_pass
+from .augmented import ContactRows, inner, make_law, make_pass
+from .contact_sweeps import add_moves, fill_moves, sweep_contacts, velocity
+from .coulomb import renew_limit, renew_shift
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
 from .smooth_pass import make_factor, solve_smooth
@@ -33,96 +35,95 @@ __all__ = ["ContactRows", "cone_newton", "cone_newton_kernel"]
 
 NEAR, SMALLEST = 1e-6, 1e-10  # ε at first, and where passes shrink the error too slowly
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # w's rounding makes 1e-16/ε in λ: to polish, a larger ε
+NEAR_LIMIT, LARGEST, QUICKEST = 1e-4, 1.0, 1e-12  # where λ sets the limits, and so its rounding counts
+PATIENCE, FEW = 6, 16  # passes that may not halve the error; sweeps at first where they don't
 
 
 @compiled
-def cone_newton_kernel(rows, M, free, coulomb, λ, tolerance, max_iterations, history, near=NEAR):
+def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iterations, history, near=NEAR):
     """u (n, k) and λ (m,), which holds the start and is changed in place. M (n, k, k), free (n, k).
 
-    Returns (u, passes, error): the error is the worst violation of w by λ's change in the last pass, m/s,
-    over the worst free one; history gets that of each pass, as far as it is long. near: ε to begin with.
+    softness (B,): γ of each block's first row, which gives way: w = J u + c + γ λ. Returns (u, passes,
+    error): the error is the worst violation of w by λ's change in the last pass, m/s, over the worst free
+    one; history gets that of each pass, as far as it is long. near: ε to begin with.
     """
     n, k = free.shape
     blocks = len(rows.μ)
-    out, trial = make_pass(rows, n, k), make_pass(rows, n, k)
-    factor = make_factor(rows, n, k)
-    size, shift, ρ = np.empty(blocks), np.zeros(blocks), np.empty(blocks)
-    u, scale = free.copy(), block_sizes(rows, M, free, size)
+    out, trial, law = make_pass(rows, n, k), make_pass(rows, n, k), make_law(blocks)
+    factor, moves, size = make_factor(rows, n, k), np.empty(rows.J.shape), np.empty(blocks)
+    fill_moves(rows, M, moves)
+    u, scale = free.copy(), block_sizes(rows, moves, free, size)
     if scale == 0:
         λ[:] = 0
         return u, 0, 0.0
-    add_impulses(rows, M, λ, u)
-    answer = np.zeros((blocks, 2))
+    add_moves(rows, moves, λ, u)
     if coulomb:
-        evaluate(rows, M, free, λ, np.ones(blocks), shift, u, out)
-        renew_shift(rows, out.w, shift, answer)
-        answer[:, 0], answer[:, 1] = np.inf, 0.0
-    ε, error, drift = near, np.inf, np.inf
+        renew_shift(rows, u, law)
+    raised = False
+    ε, error, drift, limits, best, since, sweeps = near, np.inf, np.inf, False, np.inf, 0, FEW
     for passes in range(max_iterations):
-        for q in range(blocks):
-            ρ[q] = 1 / (ε * size[q])
-        solve_smooth(rows, M, free, λ, ρ, shift, factor, u, 0.1 * tolerance * scale, out, trial)
-        before, drift = drift, renew(rows, out, λ, ρ) / scale
-        shifted = renew_shift(rows, out.w, shift, answer) / scale if coulomb else 0.0
-        error = max(drift, shifted)
+        weigh(ε, size, softness, law)
+        solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * tolerance * scale, out, trial)
+        last, before, drift, changed = error, drift, renew(rows, out, λ, law.ρ) / scale, 0.0
+        if coulomb:
+            changed = (renew_limit(rows, λ, size, law) if limits else renew_shift(rows, u, law)) / scale
+        error = max(drift, changed)
         if passes < len(history):
             history[passes] = error
         if error <= tolerance:
             return u, passes + 1, error
-        if drift > max(0.25 * before, shifted) and ε > SMALLEST:
+        since = 0 if error < 0.5 * best else since + 1
+        best, ε_before = min(best, error), ε
+        if coulomb and since >= (
+            2 * PATIENCE if limits else PATIENCE
+        ):  # the other way, from where sweeps come to
+            limits, error, drift, best, since = not limits, np.inf, np.inf, np.inf, 0
+            ε = NEAR_LIMIT if limits else near
+            u[:] = free
+            add_moves(rows, moves, λ, u)
+            if not limits:
+                sweep_contacts(rows, moves, softness, coulomb, λ, u, tolerance * scale, sweeps)
+                renew_shift(rows, u, law)
+                sweeps *= 2
+            else:
+                renew_limit(rows, λ, size, law)
+            factor.made[:] = -1
+        elif limits and raised:
+            raised = False  # what ε just left over shows in this pass's error
+        elif limits and error < 0.5 * last:
+            ε = max(ε, NEAR_LIMIT)
+        elif limits:  # λ creeps: on, with long steps, or, where w is right whatever λ is, with short ones
+            raised = drift <= tolerance
+            ε = min(100 * ε, LARGEST) if raised else max(1e-4 * ε, QUICKEST)
+        elif drift > max(0.25 * before, changed) and ε > SMALLEST:
             ε *= 0.01
+        if ε != ε_before:
             factor.made[:] = -1
     return u, max_iterations, error
 
 
+@compiled
+def weigh(ε, size, softness, law):
+    """ρ = 1/(ε A_cc), and what gives way for it."""
+    for q in range(len(size)):
+        law.ρ[q] = 1 / (ε * size[q])
+        law.give[q] = 1 + law.ρ[q] * softness[q]
+
+
 @compiled_apart
-def block_sizes(rows, M, free, size):
+def block_sizes(rows, moves, free, size):
     """A's largest diagonal entry of each block; returns the worst |w| of the free velocities."""
     scale = 0.0
     for q in range(len(size)):
         size[q] = 0.0
         for r in range(rows.block[q], rows.block[q + 1]):
-            w, diagonal = rows.c[r], 0.0
+            diagonal = 0.0
             for side in range(2):
-                i = rows.bodies[r, side]
-                if i >= 0:
-                    w += inner(rows.J[r, side], free[i])
-                    diagonal += over_mass(M[i], rows.J[r, side])
+                if rows.bodies[r, side] >= 0:
+                    diagonal += inner(rows.J[r, side], moves[r, side])
             size[q] = max(size[q], diagonal)
-            scale = max(scale, abs(w))
+            scale = max(scale, abs(velocity(rows, r, free)))
     return scale
-
-
-@compiled
-def add_impulses(rows, M, λ, u):
-    """u + M⁻¹ Jᵀ λ, roughly: with the diagonal of M, since it is only where Newton's method starts."""
-    for r in range(len(λ)):
-        for side in range(2):
-            i = rows.bodies[r, side]
-            if i >= 0:
-                for a in range(u.shape[1]):
-                    u[i, a] += rows.J[r, side, a] * λ[r] / M[i, a, a]
-
-
-@compiled
-def over_mass(M, a):
-    """a · M⁻¹ a for one body: in space masses first, then the inertia (3, 3); else a diagonal M."""
-    if len(a) != 6:
-        total = 0.0
-        for c in range(len(a)):
-            total += a[c] ** 2 / M[c, c]
-        return total
-    I = M[3:, 3:]
-    x, y, z = a[3], a[4], a[5]
-    p, q, s = (  # the cofactors of the first row, over the determinant below
-        I[1, 1] * I[2, 2] - I[1, 2] ** 2,
-        I[0, 2] * I[1, 2] - I[0, 1] * I[2, 2],
-        I[0, 1] * I[1, 2] - I[0, 2] * I[1, 1],
-    )
-    determinant = I[0, 0] * p + I[0, 1] * q + I[0, 2] * s
-    turning = p * x * x + 2 * (q * x * y + s * x * z + (I[0, 1] * I[0, 2] - I[0, 0] * I[1, 2]) * y * z)
-    turning += (I[0, 0] * I[2, 2] - I[0, 2] ** 2) * y * y + (I[0, 0] * I[1, 1] - I[0, 1] ** 2) * z * z
-    return (a[0] ** 2 + a[1] ** 2 + a[2] ** 2) / M[0, 0] + turning / determinant
 
 
 @compiled
@@ -133,31 +134,6 @@ def renew(rows, out, λ, ρ):
         for r in range(rows.block[q], rows.block[q + 1]):
             worst = max(worst, abs(out.λ[r] - λ[r]) / ρ[q])
             λ[r] = out.λ[r]
-    return worst
-
-
-@compiled
-def renew_shift(rows, w, shift, answer):
-    """The shift ← μ|w_t|, which makes the law Coulomb's. Returns the worst change, a velocity.
-
-    μ|w_t| answers to a change of the shift, by μ²/(1 + μ²) of it where A is a multiple of 1. ``answer`` (B,
-    2) holds each contact's shift and μ|w_t| of the pass before; they tell by how much, and the shift goes
-    where it answers to itself (the secant method).
-    """
-    worst = 0.0
-    for q in range(len(shift)):
-        first = rows.block[q]
-        if rows.μ[q] <= 0:
-            continue
-        along = 0.0
-        for r in range(first + 1, rows.block[q + 1]):
-            along += w[r] ** 2
-        new = rows.μ[q] * np.sqrt(along)
-        change, changed = new - shift[q], shift[q] - answer[q, 0]
-        worst = max(worst, abs(change))
-        share = (new - answer[q, 1]) / changed if abs(changed) > 1e-12 * abs(new) else 0.0
-        answer[q, 0], answer[q, 1] = shift[q], new
-        shift[q] = max(0.0, shift[q] + change / (1 - min(max(share, -1.0), 0.8)))
     return worst
 
 
@@ -181,13 +157,16 @@ def cone_newton(problem, start=None, tolerance=1e-10, max_iterations=1000):
     if reason:
         return unsuitable(problem, λ, tolerance, reason)
     coulomb, done, errors = getattr(problem, "law", "") == "ncp", 0, np.empty(most)
-    free, first = np.zeros(form[1].shape[:2]), problem.residual(λ)
+    rows, M, softness = form
+    free, first = np.zeros(M.shape[:2]), problem.residual(λ)
     with np.errstate(all="ignore"):
         for near in NEARER:
             if done == most or problem.residual(λ) <= tolerance or not np.isfinite(λ).all():
                 break
             left = most - done if done == 0 else min(most - done, 5)
-            _, passes, _ = cone_newton_kernel(*form, free, coulomb, λ, tolerance, left, errors[done:], near)
+            _, passes, _ = cone_newton_kernel(
+                rows, M, free, softness, coulomb, λ, tolerance, left, errors[done:], near
+            )
             done += passes
     history = np.full(done + 1, np.nan)
     history[0] = first

@@ -1,4 +1,4 @@
-"""One smooth problem of ``cone_newton``: Newton's method with step halving, for fixed λ, ρ and shift.
+"""One smooth problem of ``cone_newton``: Newton's method with step halving, for fixed λ and ``Law``.
 
 The matrix M + ρ Jᵀ P′ J has one block a body, not one a contact, and stays regular where contacts are
 redundant. It changes only with what sticks, slides or parts; where nothing of that changes, its factor
@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..compiled import compiled, compiled_apart
-from .augmented import OPEN, SLIDES, evaluate, inner
+from .augmented import ALONE, OPEN, SLIDES, evaluate, inner
 from .envelope import Envelope, add_block, cholesky_in_envelope, make_envelope, solve_in_envelope
 
 MOST_NEWTON, MOST_HALVINGS = 50, 30
@@ -34,9 +34,9 @@ def make_factor(rows, n, k):
 
 
 @compiled_apart
-def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial):
+def solve_smooth(rows, M, free, λ, law, factor, u, tolerance, out, trial):
     """Newton's method for one pass, with step halving: u in place, what ``evaluate`` finds there in out."""
-    value = evaluate(rows, M, free, λ, ρ, shift, u, out)
+    value = evaluate(rows, M, free, λ, law, u, out)
     move, tried = np.empty_like(u), np.empty_like(u)
     rest, before, whole = worst_rate(M, out.gradient), np.inf, False
     for _ in range(MOST_NEWTON):
@@ -44,7 +44,7 @@ def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial)
         if rest <= tolerance or (whole and fresh and rest > 0.5 * before):  # good, or as rounding lets it be
             return
         if not fresh:
-            fill_matrix(rows, M, ρ, out, factor)
+            fill_matrix(rows, M, law.ρ, out, factor)
             cholesky_in_envelope(factor.envelope, factor.L)
         solve_in_envelope(factor.envelope, factor.L, out.gradient, move)
         downhill, length, new = 0.0, 1.0, np.inf
@@ -54,7 +54,7 @@ def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial)
             for i in range(len(u)):
                 for a in range(u.shape[1]):
                     tried[i, a] = u[i, a] - length * move[i, a]
-            new = evaluate(rows, M, free, λ, ρ, shift, tried, trial)
+            new = evaluate(rows, M, free, λ, law, tried, trial)
             if new <= value + 1e-4 * length * downhill + 1e-13 * abs(value):
                 break
             length *= 0.5
@@ -68,8 +68,8 @@ def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial)
 def stands_for(rows, made, state):
     """Whether the matrix made for some states serves these too; what slides in space always changes it."""
     for q in range(len(state)):
-        turns = state[q] == SLIDES and rows.block[q + 1] - rows.block[q] == 3
-        if made[q] != state[q] or turns:
+        slides = state[q] == SLIDES or state[q] == ALONE + 1 or state[q] == ALONE + 3
+        if made[q] != state[q] or (slides and rows.block[q + 1] - rows.block[q] == 3):
             return False
     return True
 

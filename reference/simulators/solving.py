@@ -16,7 +16,6 @@ import numpy as np
 from ..factored import Factored
 from ..lcp import LCP, SOLVERS, ConeProblem
 from ..lcp.cone_newton import ContactRows, cone_newton_kernel
-from ..lcp.velocity_form import one_body
 from .impacts import rates
 
 USABLE = 1e-6  # a residual with which a run goes on, though the method didn't come to its end
@@ -47,14 +46,10 @@ class StepSolver:
         if not len(rows.c):
             return free.copy()
         if self.name == "cone_newton":
-            if softness is None or not softness.any():
-                after, passes, error = cone_newton_kernel(rows, M, free, True, λ, *self.limits, np.zeros(0))
-            else:
-                A = factors(rows, M, softness)
-                _, passes, error = cone_newton_kernel(
-                    *as_one_body(rows, A, free), True, λ, *self.limits, np.zeros(0)
-                )
-                after = free + A.velocities(λ)
+            gives = np.zeros(len(rows.μ)) if softness is None else softness[rows.block[:-1]]
+            after, passes, error = cone_newton_kernel(
+                rows, M, free, gives, True, λ, *self.limits, np.zeros(0)
+            )
             self.note(passes, error)
             return after
         A = factors(rows, M, softness)
@@ -97,13 +92,6 @@ def factors(rows, M, softness=None):
     of_bodies = np.where(there[..., None, None], M[rows.bodies], np.eye(M.shape[1]))
     B = np.linalg.solve(of_bodies, np.where(there[..., None], rows.J, 0.0)[..., None])[..., 0]
     return Factored(rows.bodies, rows.J, B, len(M), softness, M)
-
-
-def as_one_body(rows, A, free):
-    """(rows, M, free) for the same λ: one body of as many velocities as A = G Gᵀ has rank; M = 1, J = G."""
-    bodies, G, M = one_body(A)
-    b = rates(rows, free) + rows.c
-    return ContactRows(bodies, G, b, rows.block, rows.μ, rows.lower, rows.upper), M, np.zeros(M.shape[:2])
 
 
 def cone_problem(rows, A, free, λ):
