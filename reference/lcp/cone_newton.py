@@ -10,8 +10,10 @@ constraints allow. The augmented Lagrangian turns this into smooth problems, one
 A weight ρ = 1/(ε A_cc) makes each pass shrink the error by ε/(ε + σ), σ the smallest eigenvalue of the
 scaled A that is not 0: few passes, however heavy the top of a stack is.
 
-Coulomb's law (``ncp``) is not the gradient of anything, but becomes the convex law once μ|w_t| is added to
-w_n: that *shift* is taken from the pass before. With what sticks it is 0, and nothing is lost.
+Coulomb's law (``ncp``) is not the gradient of anything, but becomes convex with a *shift* μ|w_t| added to
+w_n, taken from the pass before. With what sticks it is 0, and nothing is lost. Where passes stop helping, the
+other way is taken: friction's *limit* μ λ_n from the pass before (see ``coulomb``); where that stops, sweeps
+over the contacts (``contact_sweeps``), and the shift again from there.
 
 Slides S10, S14; lectures/08_newton_lcp.md. Source: Rockafellar, Math. Oper. Res. 1 (1976) 97 (augmented
 Lagrangian as proximal point method); Qi & Sun, Math. Programming 58 (1993) 353 (semismooth Newton); De
@@ -21,8 +23,9 @@ Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 import numpy as np
 
 from ..compiled import compiled, compiled_apart
+from ..factored import add_rows
 from .augmented import ContactRows, inner, make_law, make_pass
-from .contact_sweeps import add_moves, fill_moves, sweep_contacts, velocity
+from .contact_sweeps import fill_moves, sweep_contacts, velocity
 from .coulomb import renew_limit, renew_shift
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
@@ -56,11 +59,11 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
     if scale == 0:
         λ[:] = 0
         return u, 0, 0.0
-    add_moves(rows, moves, λ, u)
+    add_rows(rows.bodies, moves, λ, u)
     if coulomb:
         renew_shift(rows, u, law)
-    raised = False
     ε, error, drift, limits, best, since, sweeps = near, np.inf, np.inf, False, np.inf, 0, FEW
+    raised = False
     for passes in range(max_iterations):
         weigh(ε, size, softness, law)
         solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * tolerance * scale, out, trial)
@@ -72,34 +75,40 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
             history[passes] = error
         if error <= tolerance:
             return u, passes + 1, error
-        since = 0 if error < 0.5 * best else since + 1
-        best, ε_before = min(best, error), ε
-        if coulomb and since >= (
-            2 * PATIENCE if limits else PATIENCE
-        ):  # the other way, from where sweeps come to
-            limits, error, drift, best, since = not limits, np.inf, np.inf, np.inf, 0
-            ε = NEAR_LIMIT if limits else near
+        since, best = 0 if error < 0.5 * best else since + 1, min(best, error)
+        if coulomb and since >= (2 * PATIENCE if limits else PATIENCE):  # the other way
             u[:] = free
-            add_moves(rows, moves, λ, u)
-            if not limits:
+            add_rows(rows.bodies, moves, λ, u)
+            if limits:
                 sweep_contacts(rows, moves, softness, coulomb, λ, u, tolerance * scale, sweeps)
                 renew_shift(rows, u, law)
                 sweeps *= 2
             else:
                 renew_limit(rows, λ, size, law)
+            limits, raised, best, since, error, drift = not limits, False, np.inf, 0, np.inf, np.inf
+            ε = NEAR_LIMIT if limits else near
             factor.made[:] = -1
         elif limits and raised:
             raised = False  # what ε just left over shows in this pass's error
-        elif limits and error < 0.5 * last:
-            ε = max(ε, NEAR_LIMIT)
-        elif limits:  # λ creeps: on, with long steps, or, where w is right whatever λ is, with short ones
-            raised = drift <= tolerance
-            ε = min(100 * ε, LARGEST) if raised else max(1e-4 * ε, QUICKEST)
-        elif drift > max(0.25 * before, changed) and ε > SMALLEST:
-            ε *= 0.01
-        if ε != ε_before:
-            factor.made[:] = -1
+        else:
+            used = ε
+            ε = limit_weight(ε, error, last, drift <= tolerance) if limits else ε
+            if not limits and drift > max(0.25 * before, changed) and ε > SMALLEST:
+                ε *= 0.01
+            raised = ε > used
+            if ε != used:
+                factor.made[:] = -1
     return u, max_iterations, error
+
+
+@compiled
+def limit_weight(ε, error, last, right):
+    """The next ε where friction has limits, from how the error went. Where λ creeps on, long steps get it
+    over with; unless w is right whatever λ is, where short ones leave it where it is.
+    """
+    if error < 0.5 * last:
+        return max(ε, NEAR_LIMIT)
+    return min(100 * ε, LARGEST) if right else max(1e-4 * ε, QUICKEST)
 
 
 @compiled

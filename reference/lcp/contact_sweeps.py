@@ -10,6 +10,7 @@ Slides S14, S16, S17; lectures/08_newton_lcp.md. Source: Jourdan, Alart & Jean, 
 import numpy as np
 
 from ..compiled import compiled, compiled_apart
+from ..factored import add_row, row_times
 from .augmented import inner
 from .one_contact import solve_contact
 
@@ -47,31 +48,9 @@ def divide_by_mass(M, a, out):
 
 
 @compiled
-def add_moves(rows, moves, λ, u):
-    """u + M⁻¹ Jᵀ λ."""
-    for r in range(len(λ)):
-        move(rows, moves, r, λ[r], u)
-
-
-@compiled
-def move(rows, moves, r, change, u):
-    """What a change of λ_r does to the velocities of its bodies."""
-    for side in range(2):
-        i = rows.bodies[r, side]
-        if i >= 0:
-            for a in range(u.shape[1]):
-                u[i, a] += moves[r, side, a] * change
-
-
-@compiled
 def velocity(rows, r, u):
     """w_r = J u + c."""
-    w = rows.c[r]
-    for side in range(2):
-        i = rows.bodies[r, side]
-        if i >= 0:
-            w += inner(rows.J[r, side], u[i])
-    return w
+    return rows.c[r] + row_times(rows.bodies, rows.J, r, u)
 
 
 @compiled_apart
@@ -99,7 +78,7 @@ def sweep_contacts(rows, moves, softness, coulomb, λ, u, tolerance, most):
             for a in range(size):
                 change = new[a] - λ[first + a]
                 worst = max(worst, abs(change) * A[a, a])
-                move(rows, moves, first + a, change, u)
+                add_row(rows.bodies, moves, first + a, change, u)
                 λ[first + a] = new[a]
         if worst <= tolerance:
             return sweeps + 1, worst

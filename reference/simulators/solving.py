@@ -16,6 +16,7 @@ import numpy as np
 from ..factored import Factored
 from ..lcp import LCP, SOLVERS, ConeProblem
 from ..lcp.cone_newton import ContactRows, cone_newton_kernel
+from ..lcp.contact_sweeps import fill_moves
 from .impacts import rates
 
 USABLE = 1e-6  # a residual with which a run goes on, though the method didn't come to its end
@@ -92,6 +93,13 @@ def factors(rows, M, softness=None):
     of_bodies = np.where(there[..., None, None], M[rows.bodies], np.eye(M.shape[1]))
     B = np.linalg.solve(of_bodies, np.where(there[..., None], rows.J, 0.0)[..., None])[..., 0]
     return Factored(rows.bodies, rows.J, B, len(M), softness, M)
+
+
+def moves_and_diagonal(rows, M):
+    """(M⁻¹ Jᵀ (m, 2, k), how λ = 1 moves its bodies; A_ii (m,)), where A itself isn't needed."""
+    moves = np.zeros_like(rows.J)
+    fill_moves(rows, M, moves)
+    return moves, np.einsum("rsk,rsk->r", rows.J, moves)
 
 
 def cone_problem(rows, A, free, λ):
