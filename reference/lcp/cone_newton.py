@@ -39,7 +39,8 @@ __all__ = ["ContactRows", "cone_newton", "cone_newton_kernel"]
 NEAR, SMALLEST = 1e-6, 1e-10  # ε at first, and where passes shrink the error too slowly
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # w's rounding makes 1e-16/ε in λ: to polish, a larger ε
 NEAR_LIMIT, LARGEST, QUICKEST = 1e-4, 1.0, 1e-12  # where λ sets the limits, and so its rounding counts
-PATIENCE, FEW = 6, 16  # passes that may not halve the error; sweeps at first where they don't
+WILD = 10.0  # times the worst free w: limits that lead astray
+PATIENCE, FEW = 6, 32  # passes that may not halve the error; sweeps at first where they don't
 
 
 @compiled
@@ -63,7 +64,7 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
     if coulomb:
         renew_shift(rows, u, law)
     ε, error, drift, limits, best, since, sweeps = near, np.inf, np.inf, False, np.inf, 0, FEW
-    raised = False
+    raised, may_rest, kept, kept_error = False, True, λ.copy(), np.inf
     for passes in range(max_iterations):
         weigh(ε, size, softness, law)
         solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * tolerance * scale, out, trial)
@@ -75,40 +76,52 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
             history[passes] = error
         if error <= tolerance:
             return u, passes + 1, error
-        since, best = 0 if error < 0.5 * best else since + 1, min(best, error)
-        if coulomb and since >= (2 * PATIENCE if limits else PATIENCE):  # the other way
-            u[:] = free
-            add_rows(rows.bodies, moves, λ, u)
+        since = 0 if error < 0.5 * best else since + 1
+        best = error if limits and error > 100 * last else min(best, error)  # λ has got somewhere else
+        lost = limits and not error < WILD
+        if coulomb and (lost or since >= (2 * PATIENCE if limits else PATIENCE)):  # the other way
             if limits:
+                if not error <= kept_error:
+                    λ[:] = kept
+                u[:] = free
+                add_rows(rows.bodies, moves, λ, u)
                 sweep_contacts(rows, moves, softness, coulomb, λ, u, tolerance * scale, sweeps)
                 renew_shift(rows, u, law)
                 sweeps *= 2
             else:
+                if error < kept_error:
+                    kept[:], kept_error = λ, error
                 renew_limit(rows, λ, size, law)
-            limits, raised, best, since, error, drift = not limits, False, np.inf, 0, np.inf, np.inf
+            limits, raised, may_rest, best, since = not limits, False, True, np.inf, 0
+            error, drift = np.inf, np.inf
             ε = NEAR_LIMIT if limits else near
             factor.made[:] = -1
         elif limits and raised:
             raised = False  # what ε just left over shows in this pass's error
         else:
             used = ε
-            ε = limit_weight(ε, error, last, drift <= tolerance) if limits else ε
-            if not limits and drift > max(0.25 * before, changed) and ε > SMALLEST:
+            if limits:
+                may_rest = may_rest and (drift <= tolerance or ε <= NEAR_LIMIT)
+                ε = limit_weight(ε, error, last, may_rest and drift <= tolerance)
+            elif drift > max(0.25 * before, changed) and ε > SMALLEST:
                 ε *= 0.01
             raised = ε > used
             if ε != used:
                 factor.made[:] = -1
+    if kept_error < error:
+        λ[:], u[:], error = kept, free, kept_error
+        add_rows(rows.bodies, moves, λ, u)
     return u, max_iterations, error
 
 
 @compiled
-def limit_weight(ε, error, last, right):
+def limit_weight(ε, error, last, rests):
     """The next ε where friction has limits, from how the error went. Where λ creeps on, long steps get it
-    over with; unless w is right whatever λ is, where short ones leave it where it is.
+    over with; where w is right whatever λ is, short ones let it rest.
     """
     if error < 0.5 * last:
         return max(ε, NEAR_LIMIT)
-    return min(100 * ε, LARGEST) if right else max(1e-4 * ε, QUICKEST)
+    return min(100 * ε, LARGEST) if rests else max(1e-4 * ε, QUICKEST)
 
 
 @compiled
