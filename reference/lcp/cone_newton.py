@@ -51,8 +51,7 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
     error): the error is the worst violation of w by λ's change in the last pass, m/s, over the worst free
     one; history gets that of each pass, as far as it is long. near: ε to begin with.
     """
-    n, k = free.shape
-    blocks = len(rows.μ)
+    (n, k), blocks = free.shape, len(rows.μ)
     out, trial, law = make_pass(rows, n, k), make_pass(rows, n, k), make_law(blocks)
     factor, moves, size = make_factor(rows, n, k), np.empty(rows.J.shape), np.empty(blocks)
     fill_moves(rows, M, moves)
@@ -61,13 +60,14 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
         λ[:] = 0
         return u, 0, 0.0
     add_rows(rows.bodies, moves, λ, u)
+    wanted = tolerance * scale
     if coulomb:
         renew_shift(rows, u, law)
     ε, error, drift, limits, best, since, sweeps = near, np.inf, np.inf, False, np.inf, 0, FEW
     raised, may_rest, kept, kept_error = False, True, λ.copy(), np.inf
     for passes in range(max_iterations):
         weigh(ε, size, softness, law)
-        solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * tolerance * scale, out, trial)
+        solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * wanted, out, trial)
         last, before, drift, changed = error, drift, renew(rows, out, λ, law.ρ) / scale, 0.0
         if coulomb:
             changed = (renew_limit(rows, λ, size, law) if limits else renew_shift(rows, u, law)) / scale
@@ -81,20 +81,14 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
         lost = limits and not error < WILD
         if coulomb and (lost or since >= (2 * PATIENCE if limits else PATIENCE)):  # the other way
             if limits:
-                if not error <= kept_error:
-                    λ[:] = kept
-                u[:] = free
-                add_rows(rows.bodies, moves, λ, u)
-                sweep_contacts(rows, moves, softness, coulomb, λ, u, tolerance * scale, sweeps)
+                sweep_from_best(rows, moves, softness, free, λ, u, kept, error <= kept_error, wanted, sweeps)
                 renew_shift(rows, u, law)
                 sweeps *= 2
             else:
-                if error < kept_error:
-                    kept[:], kept_error = λ, error
+                kept_error = keep_better(λ, error, kept, kept_error)
                 renew_limit(rows, λ, size, law)
             limits, raised, may_rest, best, since = not limits, False, True, np.inf, 0
-            error, drift = np.inf, np.inf
-            ε = NEAR_LIMIT if limits else near
+            error, drift, ε = np.inf, np.inf, NEAR_LIMIT if limits else near
             factor.made[:] = -1
         elif limits and raised:
             raised = False  # what ε just left over shows in this pass's error
@@ -108,10 +102,26 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
             raised = ε > used
             if ε != used:
                 factor.made[:] = -1
-    if kept_error < error:
-        λ[:], u[:], error = kept, free, kept_error
-        add_rows(rows.bodies, moves, λ, u)
-    return u, max_iterations, error
+    sweep_from_best(rows, moves, softness, free, λ, u, kept, error <= kept_error, wanted, 0)
+    return u, max_iterations, min(error, kept_error)
+
+
+@compiled
+def sweep_from_best(rows, moves, softness, free, λ, u, kept, better, tolerance, sweeps):
+    """So many sweeps over the contacts from λ, or from the one kept, unless λ is better; λ and u in place."""
+    if not better:
+        λ[:] = kept
+    u[:] = free
+    add_rows(rows.bodies, moves, λ, u)
+    sweep_contacts(rows, moves, softness, True, λ, u, tolerance, sweeps)
+
+
+@compiled
+def keep_better(λ, error, kept, kept_error):
+    """Keep λ if its error is smaller; returns the error of what is kept."""
+    if error < kept_error:
+        kept[:] = λ
+    return min(error, kept_error)
 
 
 @compiled

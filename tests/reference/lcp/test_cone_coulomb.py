@@ -76,8 +76,8 @@ def solved(rows, M, free, start):
 
 @pytest.mark.parametrize("seeds", [range(1, 6), pytest.param(range(6, 80), marks=pytest.mark.slow)])
 def test_boxes_on_sliding_spinning_boxes(seeds):
-    """Before friction's limits were tried, a fifth of such problems stayed unsolved. Of many, 1 % of the steps
-    may, and must say so; no energy comes in.
+    """Before friction's limits were tried, a fifth of such problems stayed unsolved. Of many, 1 % may,
+    and must say so; no energy comes in.
     """
     steps = unsolved = 0
     for seed in seeds:
