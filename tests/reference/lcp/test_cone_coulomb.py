@@ -93,12 +93,12 @@ def test_boxes_on_sliding_spinning_boxes(seeds):
 
 @pytest.mark.parametrize("seed", [1, 3, 5])
 def test_the_law_by_its_definition(seed):
-    """λ's rounding is 1e-16/ε with ε = 1e-6, times condition numbers of the order of 100."""
+    """u is recomputed from λ, whose rounding is 1e-16/ε with ε down to 1e-10: 1e-6, times a few."""
     sim = Simulation(falling(seed), FRAME)
     for _ in range(12):
         rows, M, free = problem_of(sim)
         if len(rows.c):
-            assert breach(rows, M, free, solved(rows, M, free, np.zeros(len(rows.c)))[0]) < 1e-8
+            assert breach(rows, M, free, solved(rows, M, free, np.zeros(len(rows.c)))[0]) < 1e-5
         sim.step()
 
 
