@@ -7,7 +7,8 @@ takes longer than is granted. What is timed is the whole call. The solvers take 
 Both errors stand side by side, since a small residual promises a small error of λ only where A is well
 conditioned. Pivoting solvers and those that need A as a whole are left out where n is beyond them.
 
-A problem is any function that returns a ``Known``: contact problems recorded from scenes can join.
+A problem is any function that returns a ``Known``, such as those recorded from a step of a scene, where λ
+often isn't unique: then "error" is that of w.
 
 Slides S13–S17; lectures/07_iterative_lcp.md.
 """
@@ -22,6 +23,7 @@ from .bench_sweeps import SWEEPS
 from .cases.case import Catalogue
 from .cases.lcp_lattice import lattice
 from .cases.lcp_problems import LCP_PROBLEMS
+from .cases.lcp_recorded import SCENES, recorded
 from .lcp import SOLVERS
 
 _ROW_BY_ROW = (
@@ -78,7 +80,7 @@ class LcpStudy:
             most *= _FACTOR
 
     def _row(self, known, name, most, solution, seconds):
-        error = None if known.answer is None else float(known.error(solution.lam))
+        error = None if known.answer is None and known.w is None else float(known.error(solution.lam))
         residual = float(solution.residual)
         return {
             "case": self.label,
@@ -88,6 +90,7 @@ class LcpStudy:
             "cpu_s": seconds,
             "residual": residual if np.isfinite(residual) else None,
             "error": error if error is not None and np.isfinite(error) else None,
+            "of": "λ" if known.w is None else "w",
             "status": solution.status,
         }
 
@@ -102,7 +105,7 @@ class LcpStudy:
             times = (measure.time_at(curve, aim) * 1e3 for aim in AIMS)
             cells = "".join(f"{time:10.3g}" if np.isfinite(time) else f"{'—':>10}" for time in times)
             last = mine[-1]
-            error = "" if last["error"] is None else f", error of λ {last['error']:.1e}"
+            error = "" if last["error"] is None else f", error of {last['of']} {last['error']:.1e}"
             lines.append(f"  {name:24}{cells}   {last['status']}, {last['iterations']} iterations{error}")
         return "\n".join(lines)
 
@@ -118,7 +121,8 @@ class LcpStudy:
                 seconds, values = zip(*points, strict=True) if points else ((), ())
                 look = {"color": COLOURS[k % 8], "linestyle": ("-", "--", ":")[k // 8 % 3]}
                 chart.loglog(seconds, np.maximum(values, 1e-16), marker="o", ms=3, label=name, **look)
-            chart.set(xlabel="processor time [s]", title=quantity if quantity == "residual" else "error of λ")
+            title = quantity if quantity == "residual" else f"error of {rows[0]['of']}"
+            chart.set(xlabel="processor time [s]", title=title)
         axes[1].legend(fontsize=7, bbox_to_anchor=(1, 1))
         figure.suptitle(self.label)
         figure.savefig(path)
@@ -144,6 +148,9 @@ def _studies():
     yield LcpStudy("lcp/pd/1000", LCP_PROBLEMS["planted"], {"n": 1000})
     yield LcpStudy("lcp/degenerate", LCP_PROBLEMS["degenerate"], {"n": 200})
     yield LcpStudy("lcp/redundant", LCP_PROBLEMS["redundant"], {"n": 50})
+    yield LcpStudy("lcp/pd/10000/sparse", LCP_PROBLEMS["planted"], {"n": 10_000, "density": 3e-4})
+    for name in SCENES:
+        yield LcpStudy(f"lcp/recorded/{name}", recorded, {"name": name})
     for contacts in (3334, 10_000):
         for form in ("sparse", "factored"):
             parameters = {"contacts": contacts, "factored": form == "factored"}

@@ -31,7 +31,7 @@ except ImportError:  # the course runs without Numba, only slower
 COMPILED = numba is not None and os.environ.get("REFERENCE_COMPILED", "1") != "0"
 
 
-def compiled(function=None, *, reorder=False):
+def compiled(function=None, *, reorder=False, door=True):
     """Compile a function with Numba on its first call, and cache it; without Numba, the function itself.
 
     Division by zero gives inf or nan, as NumPy does, in both forms. Functions are inlined into their callers:
@@ -39,12 +39,12 @@ def compiled(function=None, *, reorder=False):
     each array. For the same reason kernels don't index a tuple by a variable: that could raise, and on the
     path of an exception the counting can't be optimised away (measured: 27 ns a step became 870).
     ``@compiled(reorder=True)`` lets a sum be taken in another order, several terms at a time; the last digits
-    may then differ from those of the plain form.
+    may then differ from those of the plain form. door=False: only compiled functions call it (see ``inner``).
     """
     if function is None:
-        return functools.partial(compiled, reorder=reorder)
+        return functools.partial(compiled, reorder=reorder, door=door)
     order = {"fastmath": {"reassoc"}} if reorder else {}
-    return _compile(function, **order) if COMPILED else function
+    return _compile(function, no_cpython_wrapper=not door, **order) if COMPILED else function
 
 
 def lean(function):
@@ -65,15 +65,34 @@ def inner(function):
     return _compile(function, _nrt=False, no_cpython_wrapper=True) if COMPILED else function
 
 
+def inner_apart(function):
+    """As ``inner``, but called, not inlined: for long loops, which would make each of their callers long."""
+    return (
+        _compile(function, _nrt=False, no_cpython_wrapper=True, forceinline=False) if COMPILED else function
+    )
+
+
 def _compile(function, *with_functions, **options):
     folder = code_folder(*(plain(one).__module__ for one in (function, *with_functions)))
     options = {"cache": folder is not None, "error_model": "numpy", "forceinline": True} | options
     Place.folder, before = folder, numba.config.CACHE_LOCATOR_CLASSES
     numba.config.CACHE_LOCATOR_CLASSES = f"{Place.__module__}.{Place.__name__}"
     try:
-        return numba.njit(function, **options)
+        return _for_any_value(numba.njit(function, **options))
     finally:
         numba.config.CACHE_LOCATOR_CLASSES = before
+
+
+def _for_any_value(dispatcher):
+    """Numba would compile a function again for each number that stands in a call, f(x, 0) and f(x, 1)."""
+    template = dispatcher.get_call_template
+
+    def get_call_template(args, kws):
+        any_value = numba.types.unliteral
+        return template([any_value(arg) for arg in args], {name: any_value(arg) for name, arg in kws.items()})
+
+    dispatcher.get_call_template = get_call_template
+    return dispatcher
 
 
 def merged(function):
@@ -123,8 +142,12 @@ def _bind_compiled(function, *functions):
     tree = ast.parse(textwrap.dedent(inspect.getsource(source)))
     ast.increment_lineno(tree, source.__code__.co_firstlineno - 1)  # so that a traceback shows the right line
     definition = tree.body[0]
+    if not isinstance(definition, ast.FunctionDef) or definition.name != source.__name__:
+        raise _edited(source)
     definition.decorator_list.clear()
-    _check_unedited(source, _defined(tree, definition, source.__globals__))
+    alone = _defined(tree, definition, source.__globals__)
+    if not (_same(source.__code__, alone.__code__) or _in_its_file(source)):
+        raise _edited(source)
     fixed = [argument.arg for argument in definition.args.args[: len(functions)]]
     del definition.args.args[: len(functions)]
     # Numba's cache goes by name, not by the globals: another function bound must give another name
@@ -136,6 +159,25 @@ def _bind_compiled(function, *functions):
     return _compile(_defined(tree, definition, names, source.__code__.co_filename), *functions, **options)
 
 
+def _same(code, other):
+    parts = "co_name", "co_code", "co_consts", "co_names", "co_varnames"
+    return all(getattr(code, part) == getattr(other, part) for part in parts)
+
+
+def _in_its_file(function):
+    """Whether the file, compiled as a whole, has this function's code at its place.
+
+    Compiled from its own lines alone it may differ: Python calls ``np.zeros`` in another way where it sees,
+    at the top of what it compiles, that np was imported. (A notebook's statements are compiled one by one.)
+    """
+    code, found = function.__code__, [compile("".join(inspect.findsource(function)[0]), "<source>", "exec")]
+    for some in found:  # grows: code within code
+        if some.co_firstlineno == code.co_firstlineno and _same(code, some):
+            return True
+        found += filter(inspect.iscode, some.co_consts)
+    return False
+
+
 def _defined(tree, definition, names, file="<source>"):
     """The function that a tree defines, with these global names."""
     names = dict(names)
@@ -143,11 +185,8 @@ def _defined(tree, definition, names, file="<source>"):
     return names[definition.name]
 
 
-def _check_unedited(function, in_file):
-    """RuntimeError where the file no longer says what was imported from it."""
-    parts = "co_name", "co_code", "co_consts", "co_names", "co_varnames"
-    if any(getattr(function.__code__, part) != getattr(in_file.__code__, part) for part in parts):
-        raise RuntimeError(
-            f"{function.__code__.co_filename} was edited after it was imported: restart Python (in Jupyter: "
-            f"Kernel → Restart), so that {function.__name__} is what the file says"
-        )
+def _edited(function):
+    return RuntimeError(
+        f"{function.__code__.co_filename} was edited after it was imported: restart Python (in Jupyter: "
+        f"Kernel → Restart), so that {function.__name__} is what the file says"
+    )

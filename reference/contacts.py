@@ -12,7 +12,7 @@ Slides S10–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Num
 import numpy as np
 
 from .collision import ContactArrays
-from .compiled import compiled
+from .compiled import compiled, inner, lean
 from .rotation import cross, quaternion, rotate
 
 
@@ -22,33 +22,75 @@ def part(contacts, which):
     return ContactArrays(np.array([len(arrays[0])]), *arrays)
 
 
+@compiled
 def keys(contacts, n):
-    """One number for each contact (m,), the same from step to step: which of n bodies, and what of them."""
-    i, j = contacts.bodies[:, 0], contacts.bodies[:, 1]
-    return (i * n + j) * 2**32 + contacts.id
+    """One number for each contact (m,), the same from step to step: which of n bodies, and what of them.
+
+    Contacts come sorted by it.
+    """
+    key = np.empty(contacts.count[0], np.int64)
+    for q in range(len(key)):
+        key[q] = (contacts.bodies[q, 0] * n + contacts.bodies[q, 1]) * 2**32 + contacts.id[q]
+    return key
 
 
+@compiled
 def look_up(known, values, key):
-    """The values (m, d) that belong to these keys (m,); 0 for those that are not known (c,)."""
-    found = np.zeros((len(key), values.shape[1]))
-    if len(known):
-        order = np.argsort(known, kind="stable")
-        at = order[np.minimum(np.searchsorted(known[order], key), len(order) - 1)]
-        same = known[at] == key
-        found[same] = values[at[same]]
+    """The values (c, d) that belong to these keys (m,), as (m, d); 0 for those that are not known (c,).
+
+    Both are sorted, so one walk along them finds all.
+    """
+    found, k = np.zeros((len(key), values.shape[1])), 0
+    for q in range(len(key)):
+        while k < len(known) and known[k] < key[q]:
+            k += 1
+        if k < len(known) and known[k] == key[q]:
+            for a in range(values.shape[1]):
+                found[q, a] = values[k, a]
     return found
 
 
+@compiled
 def spread(rows, λ, m, d):
     """λ of the first m blocks, the contacts, as (m, d): normal and tangents, 0 where there is no row."""
     full = np.zeros((m, d))
-    full[tangents(rows, m, d)] = λ[: rows.block[m]]
+    for q in range(m):
+        first = rows.block[q]
+        for r in range(first, rows.block[q + 1]):
+            full[q, r - first] = λ[r]
     return full
 
 
-def tangents(rows, m, d):
-    """(m, d): which of the directions of m contacts have rows."""
-    return np.arange(d) < np.diff(rows.block[: m + 1])[:, None]
+@compiled
+def gather(rows, full, others):
+    """λ (r,) from what ``spread`` makes, (m, d), and the values of the rows after the contacts'."""
+    λ, m = np.empty(len(rows.c)), len(full)
+    for q in range(m):
+        first = rows.block[q]
+        for r in range(first, rows.block[q + 1]):
+            λ[r] = full[q, r - first]
+    for r in range(len(others)):
+        λ[rows.block[m] + r] = others[r]
+    return λ
+
+
+@inner
+def parting_speed(contacts, q, u):
+    """w_n = J u of contact q for the velocities u (n, k): how fast its two bodies part, m/s."""
+    w = 0.0
+    for side in range(2):
+        i = contacts.slot[q, side]
+        if i < 0:
+            continue
+        n, r = contacts.frame[q, 0], contacts.arm[q, side]
+        if len(n) == 2:
+            speed = n[0] * u[i, 0] + n[1] * u[i, 1] + (r[0] * n[1] - r[1] * n[0]) * u[i, 2]
+        else:
+            moment = cross((r[0], r[1], r[2]), (n[0], n[1], n[2]))
+            speed = n[0] * u[i, 0] + n[1] * u[i, 1] + n[2] * u[i, 2]
+            speed += moment[0] * u[i, 3] + moment[1] * u[i, 4] + moment[2] * u[i, 5]
+        w += speed if side == 1 else -speed
+    return w
 
 
 @compiled
@@ -78,7 +120,7 @@ def contact_rows(contacts, target, k):
     return bodies, J, c, block, μ, np.zeros(n), np.full(n, np.inf)
 
 
-@compiled
+@lean
 def put_row(J, e, arm, sign):
     """sign · (e, r × e), for one body (S5)."""
     if len(e) == 2:
@@ -89,15 +131,16 @@ def put_row(J, e, arm, sign):
             J[a], J[3 + a] = sign * e[a], sign * moment[a]
 
 
-@compiled
+@lean
 def fill_masses(system, state, M):
     """M (n, k, k), block by block: the mass, and R I Rᵀ in the world frame; 1 for the turning of points,
     which have none.
     """
     n, d = state.x.shape
-    M[:] = 0
     for i in range(n):
         for a in range(M.shape[1]):
+            for b in range(M.shape[1]):
+                M[i, a, b] = 0.0
             M[i, a, a] = system.mass[i] if a < d else 1.0
         if i >= len(state.q):
             continue
@@ -111,7 +154,7 @@ def fill_masses(system, state, M):
         add_axis(M[i], system.inertia[i, 2], rotate(q, (0.0, 0.0, 1.0)))
 
 
-@compiled
+@inner
 def add_axis(M, I, e):
     """Add I e ⊗ e to the turning part of one body's M (6, 6)."""
     for a, x in ((3, e[0]), (4, e[1]), (5, e[2])):
@@ -137,7 +180,7 @@ def label_islands(bodies, n):
     return label
 
 
-@compiled
+@inner
 def root(label, i):
     """The body whose label is its own, followed from i; paths are halved on the way."""
     while label[i] != i:

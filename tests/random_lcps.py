@@ -1,5 +1,8 @@
 """Random small LCPs of every sort, and judges of answers that share nothing with the reference."""
 
+import itertools
+from fractions import Fraction
+
 import numpy as np
 import scipy.optimize
 
@@ -27,11 +30,10 @@ def parts(seed, largest=4):
         friction = [1], [0], float(random.choice([0, 0.3, 0.5, 2.0]))
         if random.random() < 0.8:
             lower[0], upper[0] = 0, np.inf
-    regular = np.abs(A).sum(axis=1).all()  # a row of zeros has no unit of its own: d = 1 there, by definition
-    if random.random() < 0.2 and regular:  # other units of λ
+    if random.random() < 0.2:  # other units of λ
         unit = 10.0 ** random.integers(-12, 13)
         A, lower, upper = A / unit, lower * unit, upper * unit
-    if random.random() < 0.2 and regular:  # other units of w
+    if random.random() < 0.2:  # other units of w
         unit = 10.0 ** random.integers(-12, 13)
         A, b = A * unit, b * unit
     return A, b, lower, upper, friction, kind
@@ -44,7 +46,7 @@ def matrix(random, n, kind):
         "whole": whole,
         "semidefinite": whole @ whole.T,
         "nonnegative": np.abs(whole),
-        "p": whole @ whole.T + whole - whole.T + np.eye(n),
+        "p": whole @ whole.T + whole - whole.T + np.eye(n),  # positive definite, not symmetric
         "real": random.normal(size=(n, n)),
         "singular": narrow @ narrow.T,
     }[kind]
@@ -52,7 +54,7 @@ def matrix(random, n, kind):
 
 def limits(lower, upper, friction, λ):
     """The bounds at this λ."""
-    lower, upper = lower.copy(), upper.copy()
+    lower, upper = list(lower), list(upper)
     if friction is not None:
         for row, normal in zip(*friction[:2], strict=True):
             upper[row] = friction[2] * max(λ[normal], 0)
@@ -60,30 +62,151 @@ def limits(lower, upper, friction, λ):
     return lower, upper
 
 
-def is_answer(A, b, lower, upper, friction, λ, tolerance=1e-7):
-    """Whether λ solves it by the definition, but for the tolerance in the units of each row."""
+def exactly(x):
+    """A finite double as the fraction it is; ±inf as it is."""
+    return Fraction(float(x)) if np.isfinite(x) else float(x)
+
+
+def origin(lower, upper, friction):
+    """λ⁰ (n,): 0, or the bound nearest to it; a friction row's bounds are not those that stand there."""
+    λ = np.clip(0.0, lower, upper)
+    λ[[] if friction is None else friction[0]] = 0
+    return λ
+
+
+def gaps(A, b, lower, upper, friction, λ):
+    """(r, w, d), lists of n fractions: r_i = λ_i − clip(λ_i − w_i/d_i, lower_i, upper_i) without rounding."""
+    b, λ, lower, upper = (list(map(exactly, x)) for x in (b, λ, lower, upper))
+    friction = None if friction is None else (*friction[:2], exactly(friction[2]))
+    lower, upper = limits(lower, upper, friction, λ)
+    rows = [list(map(exactly, row)) for row in A]
+    w = [b_i + sum(a * x for a, x in zip(row, λ, strict=True)) for row, b_i in zip(rows, b, strict=True)]
+    d = [row[i] if row[i] > 0 else max(map(abs, row)) or Fraction(1) for i, row in enumerate(rows)]
+    step = [x - w_i / d_i for x, w_i, d_i in zip(λ, w, d, strict=True)]
+    r = [x - min(max(s, l), u) for x, s, l, u in zip(λ, step, lower, upper, strict=True)]
+    return r, w, d
+
+
+def scale(A, b, lower, upper, friction):
+    """max |r_i| of λ⁰, what every residual is divided by."""
+    return float(
+        max(map(abs, gaps(A, b, lower, upper, friction, origin(lower, upper, friction))[0]), default=0)
+    )
+
+
+def unseen(A, b, λ, d):
+    """What no solver can see of each r_i (n,): w_i is a sum of n + 1 products of doubles, so it is off by up
+    to n + 1 roundings of the sum of their sizes, and clip and quotient add one each.
+    """
+    return (len(b) + 3) * 2.0**-53 * (np.abs(A) @ np.abs(λ) + np.abs(b)) / np.array(d, dtype=float)
+
+
+def is_answer(A, b, lower, upper, friction, λ, tolerance=1e-10, size=None):
+    """Whether λ solves it: in exact numbers no |r_i| is above tolerance times ``size``, the scale.
+
+    Allowed besides is only what is ``unseen``.
+    A row of zeros has no d to make a length of w_i = b_i: there λ_i must be as near to its very bound.
+    """
     if not np.isfinite(λ).all():
         return False
-    lower, upper = limits(lower, upper, friction, λ)
-    w, peak = A @ λ + b, np.abs(A).max(axis=1, initial=0)
-    finite = [np.abs(x[np.isfinite(x)]).max(initial=0) for x in (lower, upper, λ)]
-    force = np.abs(A) @ np.abs(λ) + np.abs(b)
-    loose = tolerance * max(*finite, (force / np.where(peak > 0, peak, np.inf)).max(initial=0))
-    loose_w = np.maximum(tolerance * force, loose * np.where(peak > 0, peak, 1))  # loose in λ, as a w
-    if (λ < lower - loose).any() or (λ > upper + loose).any():
-        return False
-    right = (np.abs(w) <= loose_w) | ((w > 0) & (λ <= lower + loose)) | ((w < 0) & (λ >= upper - loose))
-    return bool(right.all())
+    size = scale(A, b, lower, upper, friction) if size is None else size
+    r, _, d = gaps(A, b, lower, upper, friction, λ)
+    rounding = unseen(A, b, λ, d)
+    near = all(abs(x) <= tolerance * size + off for x, off in zip(r, rounding, strict=True))
+    low, high = limits(lower, upper, friction, λ)
+    for i in np.flatnonzero(~np.abs(A).any(axis=1) & (np.array(b) != 0)):
+        bound = low[i] if b[i] > 0 else high[i]
+        near &= bool(abs(λ[i] - bound) <= tolerance * size)
+    return near
+
+
+def farthest(A, b, lower, upper, λ, tolerance=1e-10):
+    """How far, in the 2-norm, a solved λ may be from the one solution, where A is positive definite.
+
+    With r the gaps of λ and e its error, y = λ − r is within the bounds, and the two inequalities that y and
+    the solution satisfy give eᵀAe ≤ (A e)ᵀr + (D r)ᵀe, so ‖e‖ ≤ (‖A‖ + max d) ‖r‖ / c with c the least
+    eigenvalue of (A + Aᵀ)/2; and |r_i| is at most tolerance max |r(λ⁰)|, and what is ``unseen``.
+    """
+    if not len(b):
+        return 0.0
+    d = gaps(A, b, lower, upper, None, λ)[2]
+    r = np.linalg.norm(tolerance * scale(A, b, lower, upper, None) + unseen(A, b, λ, d))
+    return (np.linalg.norm(A, 2) + float(max(d))) / np.linalg.eigvalsh((A + A.T) / 2)[0] * r
+
+
+def solvable(A, b, lower, upper, friction):
+    """Whether there is a solution, found by linear programs (HiGHS): one for each choice of a piece a row.
+
+    A row is at its lower bound with w ≥ 0, at its upper with w ≤ 0, or between them with w = 0. Friction
+    bounds are ±μ λ_n where λ_n ≥ 0, and 0 else: two sets of programs. Unlike an enumeration of isolated
+    solutions this sees whole lines of them, too. λ and w are in units in which A, b and the bounds are
+    about 1, since HiGHS takes less than 1e-7 for 0.
+    """
+    A, b, lower, upper = _of_one(A, b, lower, upper)
+    n = len(b)
+    low = [(np.zeros(n), l) for l in lower]  # bounds as a·λ + c
+    high = [(np.zeros(n), u) for u in upper]
+    anywhere = [(None, None)] * n
+    cases = [(low, high, anywhere)]
+    if friction is not None:
+        (t,), (k,), μ = friction
+        cases = []
+        for moving, side in ((μ * np.eye(n)[k], (0, None)), (np.zeros(n), (None, 0))):
+            bounds = _with(low, t, (-moving, 0.0)), _with(high, t, (moving, 0.0))
+            cases.append((*bounds, _with(anywhere, k, side)))
+    for low, high, range_ in cases:
+        pieces = [
+            ["w", *("l" * bool(np.isfinite(l[1]))), *("u" * bool(np.isfinite(u[1])))]
+            for l, u in zip(low, high, strict=True)
+        ]
+        if any(_holds_somewhere(A, b, low, high, range_, choice) for choice in itertools.product(*pieces)):
+            return True
+    return False
+
+
+def _of_one(A, b, lower, upper):
+    """The same problem with rows and b of about 1, and λ in units of what it may come to."""
+    peak = np.abs(A).max(axis=1, initial=0)
+    row = 1 / np.where(peak > 0, peak, np.maximum(np.abs(b), 1e-300))
+    A, b = row[:, None] * A, row * b
+    regular = np.abs(b[peak > 0]).max(initial=0)
+    unit = max(regular, *(np.abs(x[np.isfinite(x)]).max(initial=0) for x in (lower, upper)))
+    unit = unit if unit > 0 else 1.0
+    return A, b / np.where(peak > 0, unit, 1), lower / unit, upper / unit
+
+
+def _with(items, k, item):
+    return [*items[:k], item, *items[k + 1 :]]
+
+
+def _holds_somewhere(A, b, low, high, range_, choice):
+    n, equal, less = len(b), [], []  # rows (a, c) with a·λ = c, a·λ ≤ c
+    for i, piece in enumerate(choice):
+        own, (l, l0), (u, u0) = np.eye(n)[i], low[i], high[i]
+        if piece == "w":
+            equal.append((A[i], -b[i]))
+            less += [(l - own, -l0)] * bool(np.isfinite(l0)) + [(own - u, u0)] * bool(np.isfinite(u0))
+        elif piece == "l":
+            equal.append((own - l, l0))
+            less.append((-A[i], b[i]))
+        else:
+            equal.append((own - u, u0))
+            less.append((A[i], -b[i]))
+    if not n:
+        return True
+    (A_eq, b_eq), (A_ub, b_ub) = (
+        (np.array([a for a, _ in rows]).reshape(-1, n), [c for _, c in rows]) for rows in (equal, less)
+    )
+    found = scipy.optimize.linprog(np.zeros(n), A_ub, b_ub, A_eq, b_eq, bounds=range_, method="highs")
+    return found.status != 2
 
 
 def nothing_feasible(A, b, lower, upper):
     """Whether a linear program (HiGHS) finds no λ within its bounds that gives each w its sign."""
-    size = max(np.abs(A).max(initial=0), 1e-300)
+    A, b, lower, upper = _of_one(A, b, lower, upper)
     rises, falls = np.isfinite(lower), np.isfinite(upper)  # w > 0 allowed, w < 0 allowed
     at_least, at_most = np.flatnonzero(~falls), np.flatnonzero(~rises)
-    scale = 1 / np.maximum(np.abs(b).max(initial=0), 1e-300)  # λ in units of b/A
-    bounds = [(l * size * scale, u * size * scale) for l, u in zip(lower, upper, strict=True)]
-    rows = np.vstack([-A[at_least], A[at_most]]) / size
-    right = np.concatenate([b[at_least], -b[at_most]]) * scale
+    rows, right = np.vstack([-A[at_least], A[at_most]]), np.concatenate([b[at_least], -b[at_most]])
+    bounds = list(zip(lower, upper, strict=True))
     found = scipy.optimize.linprog(np.zeros(len(b)), rows, right, bounds=bounds, method="highs")
     return found.status == 2

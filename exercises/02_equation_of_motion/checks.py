@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 import exercises
-from exercises.grader.check import Call, Case, Check, cause, cause_like, remember
+from exercises.grader.check import Call, Case, Check, cause, cause_like
 from exercises.grader.judges import all_of, an_array, equal, on_answer, order_of_runs
 from exercises.grader.replies import Given, Reply, Student
 
@@ -479,7 +479,7 @@ FLIP_TIME = Check(
         ),
     ),
     hidden=lambda stream: list(tumbles(stream)),
-    judge=equal(remember(right.flip_time), 1e-4),
+    judge=equal(right.flip_time, 1e-4),
     reply=Reply(nonfinite=True),
     why="At this dt Kutta's method finds the flip to about 3e-6 s. The step is 1e-2 s, so a time taken from "
     "the grid, without the straight line between two steps, does not pass.",

@@ -28,7 +28,8 @@ HIDDEN = (
 )  # if already imported
 INERT = (
     "IPython", "ipywidgets", "ipympl", "matplotlib_inline", "tqdm", "google", "seaborn", "plotly", "bokeh",
-    "rich", "tabulate", "termcolor", "colorama",
+    "rich", "tabulate", "termcolor", "colorama", "icecream", "nest_asyncio", "line_profiler",
+    "memory_profiler",
 )  # fmt: skip
 
 

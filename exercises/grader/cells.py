@@ -49,8 +49,11 @@ def cells_of(data, name, is_notebook):
     if not is_notebook:
         return [cell for cell in re.split(r"(?m)^# %%.*$", text) if cell.strip()]
     try:
-        cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
-        return ["".join(cell["source"]) for cell in cells]
+        book = json.loads(text)
+        if "cells" not in book and "worksheets" in book:  # how notebooks of format 3 were written
+            book = {"cells": [cell for sheet in book["worksheets"] for cell in sheet["cells"]]}
+        cells = [cell for cell in book["cells"] if cell["cell_type"] == "code"]
+        return ["".join(cell["source"] if "source" in cell else cell["input"]) for cell in cells]
     except (ValueError, KeyError, TypeError, RecursionError):
         raise Unreadable(f"{name} is not a notebook: its JSON has no list of cells") from None
 
@@ -64,22 +67,16 @@ class Namespace:
         self.names.update(display=lambda *things, **options: None, get_ipython=lambda: absent.shell)
         absent.shell = Shell(self)
 
-    def run(self, source, name="cell"):
-        """Runs one cell. None, or the exception as `describe` tells it."""
+    def run(self, source, name="cell", code=None):
+        """Runs one cell, whose code may be known already. None, or the exception as `describe` tells it."""
         _reopen_output()
         try:
-            tree = ast.parse(_as_python(source), name)
-            linecache.cache[name] = (
-                len(source),
-                None,
-                source.splitlines(keepends=True),
-                name,
-            )  # lines for tracebacks
-            code = compile(tree, name, "exec", flags=ast.PyCF_ALLOW_TOP_LEVEL_AWAIT | self.future)
+            if code is None or self.future:
+                code = _compiled(source, name, self.future)
+            lines = source.splitlines(keepends=True)
+            linecache.cache[name] = (len(source), None, lines, name)  # for tracebacks
             self.future |= code.co_flags & FUTURE  # `from __future__ import …` holds in later cells too
-            result = eval(code, self.names)
-            if inspect.iscoroutine(result):
-                asyncio.run(result)
+            _run(code, self.names)
         except BaseException as error:
             return describe(error)
         return None
@@ -102,7 +99,7 @@ def _reopen_output():
 def definitions(source):
     """What is left of a cell that cannot run as a whole."""
     try:
-        body = ast.parse(_as_python(source)).body
+        body = _compiled(source, "cell", ast.PyCF_ONLY_AST).body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
     return [ast.unparse(statement) for statement in body if _defines(statement)]
@@ -119,12 +116,29 @@ def _defines(statement):
     return isinstance(statement, kinds)
 
 
-def _as_python(source):
+def code_of(source, name="cell"):
+    """The code of a cell that is plain Python, else None."""
     try:
-        compile(source, "cell", "exec", flags=ast.PyCF_ALLOW_TOP_LEVEL_AWAIT)
-        return source
+        return compile(source, name, "exec", ast.PyCF_ALLOW_TOP_LEVEL_AWAIT, dont_inherit=True)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+
+
+def _compiled(source, name, flags=0):
+    """The code of a cell, translated where it is no plain Python. (The other way round, each plain cell would
+    be translated in vain.)"""
+    flags |= ast.PyCF_ALLOW_TOP_LEVEL_AWAIT
+    try:
+        return compile(source, name, "exec", flags, dont_inherit=True)
     except (SyntaxError, ValueError):
-        return ipython.translate(source)
+        return compile(ipython.translate(source), name, "exec", flags, dont_inherit=True)
+
+
+def _run(code, names):
+    """Runs the code of a cell, and awaits what it awaits."""
+    result = eval(code, names)
+    if inspect.iscoroutine(result):
+        asyncio.run(result)
 
 
 class Shell:
@@ -142,7 +156,7 @@ class Shell:
         try:
             code = compile(line, "magic", "eval")
         except SyntaxError:  # no expression: `%time x = 1`
-            code = compile(_as_python(line), "magic", "exec")
+            return _run(_compiled(line, "magic"), self.user_ns)
         result = eval(code, self.user_ns)
         if magic == "time":
             return result
@@ -152,7 +166,10 @@ class Shell:
         if magic == "capture" and (name := line.split("-")[0].strip()):
             self.user_ns[name] = absent.INERT_THING  # what was printed, if anybody asks
         if magic in RUN_THEIR_CELL:
-            exec(compile(_as_python(cell), "cell", "exec"), self.user_ns)
+            _run(_compiled(cell, "cell"), self.user_ns)
+
+    def run_cell(self, cell, *rest, **options):
+        self.namespace.run(cell)
 
     def getoutput(self, command, *rest, **options):
         return []

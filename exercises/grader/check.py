@@ -41,7 +41,7 @@ class Cause:
     model: Callable = None  # model(values): what a student with this mistake would return, if known
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Check:
     """A check of one function, or of one property. All its cases pass, or it earns nothing."""
 

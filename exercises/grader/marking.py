@@ -7,6 +7,7 @@ subprocess (shell), or in a sandbox (class).
 import json
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from exercises.grader.check import SELF_STUDY_SEED
 from exercises.grader.judges import Verdict
@@ -52,28 +53,41 @@ class Result:
 def mark(check, ask, seed=SELF_STUDY_SEED):
     """The Result of one check. All calls of the visible cases go in one message, those of the hidden ones in
     another: a function that looks about it while a visible case is asked finds no hidden one to tell of."""
+    outcomes, lost = [], None
+    for asked, text in _questions(check, seed):
+        outcomes += _outcomes(check, asked, text, ask, lost)
+        lost = next((one.verdict.got for one in outcomes if _is_lost(one.verdict.got)), None)
+    return Result(check, outcomes)
+
+
+@lru_cache(512)
+def _questions(check, seed):
+    """The messages of a check, the same for all submissions: ([(case, its calls)], the message's text)."""
     cases = check.cases(seed)
-    visible, hidden = [one for one in cases if not one.hidden], [one for one in cases if one.hidden]
-    outcomes = _outcomes(check, visible, ask, more=bool(hidden))
-    lost = [one.verdict.got for one in outcomes if getattr(one.verdict.got, "kind", "") == "no answer"]
-    return Result(check, outcomes + (_outcomes(check, hidden, ask, lost=lost[:1]) if hidden else []))
+    groups = [[one for one in cases if one.hidden == hidden] for hidden in (False, True)]
+    asked = [[(case, check.calls_of(case)) for case in group] for group in groups]
+    questions = []
+    for number, group in enumerate(asked):
+        request = [
+            {"function": call.function, "arguments": [pack(argument) for argument in call.arguments]}
+            for _, calls in group
+            for call in calls
+        ]
+        more = {"more": True} if number == 0 and asked[1] else {}  # another message on this check follows
+        questions.append((group, json.dumps({"calls": request, **more}, allow_nan=False)))
+    return questions if asked[1] else questions[:1]
 
 
-def _outcomes(check, cases, ask, more=False, lost=()):
-    """`more`: another message on the same question follows. `lost`: the Failure of whom nobody answers."""
-    calls = [check.calls_of(case) for case in cases]
-    request = [
-        {"function": call.function, "arguments": [pack(argument) for argument in call.arguments]}
-        for group in calls
-        for call in group
-    ]
-    message = {"calls": request, **({"more": True} if more else {})}
-    if lost:
-        answers = [(lost[0], "")] * len(request)
-    else:
-        answers = _read(ask(json.dumps(message, allow_nan=False)), len(request), check.reply)
+def _is_lost(got):
+    return getattr(got, "kind", "") == "no answer"
+
+
+def _outcomes(check, asked, text, ask, lost):
+    """`lost`: the Failure of one who does not answer any more."""
+    count = sum(len(calls) for _, calls in asked)
+    answers = [(lost, "")] * count if lost else _read(ask(text), count, check.reply)
     outcomes = []
-    for case, group in zip(cases, calls, strict=True):
+    for case, group in asked:
         mine, answers = answers[: len(group)], answers[len(group) :]
         outcomes.append(Outcome(case, group, _verdict(check, case, mine), "".join(text for _, text in mine)))
     return outcomes

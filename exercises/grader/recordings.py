@@ -10,12 +10,12 @@ recordings by heart earns nothing.
 
 import argparse
 import contextlib
-import importlib.metadata
 import json
 import os
 import platform
 import sys
-from functools import cached_property
+from functools import cache, cached_property
+from importlib.metadata import version
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -27,6 +27,8 @@ from exercises.grader.check import Unrecorded
 class EngineOracle:
     """`run(**inputs)` asks the engine, `inputs()` lists what to record, `settings` say how it is set;
     `model(inputs)` is what the engine would say, if there is a formula for it."""
+
+    remembers = True  # what it answered, for the engine and for its recording apart
 
     def __init__(self, engine, path, run, inputs, settings, model=None):
         self.engine, self.path, self.settings = engine, Path(path), settings
@@ -76,7 +78,7 @@ class EngineOracle:
     def source(self):
         """Which of the two speaks, in words."""
         if self.live:
-            return f"{self.engine} {importlib.metadata.version(self.engine)}, run live"
+            return f"{self.engine} {_version(self.engine)}, run live"
         made = self.recording
         words = f"a recording of {made['engine']} {made['version']} made on {made['platform']}"
         return words if self.model is None else f"{words}, and a formula that agrees with it"
@@ -86,7 +88,7 @@ class EngineOracle:
         cases = [{"inputs": _plain(values), "output": _plain(self.run(**values))} for values in self.inputs()]
         head = {
             "engine": self.engine,
-            "version": importlib.metadata.version(self.engine),
+            "version": _version(self.engine),
             "settings": self.settings,
             "platform": f"{platform.system()} {platform.machine()}, Python {platform.python_version()}",
         }
@@ -110,6 +112,12 @@ def silence():
             os.dup2(copy, number)
             os.close(copy)
         os.close(nowhere)
+
+
+@cache
+def _version(engine):
+    """Looked up on disk once, not for each submission."""
+    return version(engine)
 
 
 def _plain(value):

@@ -14,6 +14,7 @@ import types
 import numpy as np
 
 MOST_THINGS, MOST_BYTES = 50_000, 50_000_000  # looked at; of arrays copied
+UNCHANGING = {type(None), bool, int, float, complex, str, bytes, types.ModuleType, types.BuiltinFunctionType}
 
 
 @contextlib.contextmanager
@@ -33,7 +34,7 @@ def _remember(names):
     undo, seen, waiting, room = [], {}, [names], MOST_BYTES
     while waiting and len(seen) < MOST_THINGS:
         thing = waiting.pop()
-        if id(thing) in seen:
+        if type(thing) in UNCHANGING or id(thing) in seen:
             continue
         seen[id(thing)] = thing
         with contextlib.suppress(Exception):  # a thing that cannot even be looked at

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from ..layout import Bodies
-from ..shapes import Box, Disc, Plane, Sphere
+from ..shapes import Box, Plane
 from .case import GRAVITY, Motion
 from .upright import Upright
 
@@ -28,11 +28,6 @@ class Ground(Upright):
         """Add a box, as deep as it is wide; returns its number. Further arguments are ``scene.add``'s."""
         across = (half_width,) * (self.dimension - 1)
         return self.scene.add(Box((*across, half_height)), position=self.vector(centre), **body)
-
-    def ball(self, radius, centre, **body):
-        """Add a disc, in space a sphere; returns its number."""
-        shape = Disc(radius) if self.dimension == 2 else Sphere(radius)
-        return self.scene.add(shape, position=self.vector(centre), **body)
 
     def moving(self, place, φ, velocity, ω):
         """The Motion of the one body on the ground: from its place (T, 2), angle (T,), and their rates."""

@@ -22,7 +22,9 @@ CPS = "Cottle, Pang & Stone, The Linear Complementarity Problem (2009)"
 class Known:
     """A problem, and its answer λ (n,) where it is known and unique; None where there is none or several.
 
-    solvable: whether there is any answer. ``error(λ)`` is the largest error relative to the largest λ_i.
+    solvable: whether there is any answer. w (n,): that of all answers, where only that is known and unique.
+    ``error(λ)`` is the largest error of λ relative to the largest λ_i, or, where λ isn't unique, of w
+    relative to the largest b_i.
     """
 
     problem: LCP | ConeProblem
@@ -30,9 +32,12 @@ class Known:
     source: str
     what_is_hard: str
     solvable: bool = True
+    w: np.ndarray | None = None
 
     def error(self, λ):
-        """max |λ − answer| / max |answer|; the plain error where the answer is 0."""
+        """max |λ − answer| / max |answer|, the plain error where that is 0; or that of w over max |b|."""
+        if self.answer is None:
+            return np.abs(self.problem.w(λ) - self.w).max() / np.abs(self.problem.b).max()
         size = np.abs(self.answer).max(initial=0)
         return np.abs(np.asarray(λ) - self.answer).max(initial=0) / (size if size > 0 else 1)
 

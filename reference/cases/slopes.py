@@ -9,7 +9,7 @@ import numpy as np
 
 from ..shapes import Plane
 from .case import GRAVITY, Case, attitude_error, position_error, positive
-from .ground import Ground, speed_error
+from .ground import Ground, speed_error, standing
 
 G = GRAVITY
 
@@ -70,6 +70,74 @@ def rolling(speed=2.0, friction=0.3, radius=0.3, dimension=2, duration=1.0):
         "Angular momentum about a point of the ground is kept: 1/(1 + I/m r²) of the speed is left, 2/3 for "
         "a disc, 5/7 for a sphere, whatever μ (Goldstein, Classical Mechanics, 1980, chapter 5).",
         "Sliding turns to rolling within a step, and from then on friction is 0.",
+    )
+
+
+def descent(share=1.1, angle=0.4, radius=0.3, dimension=2, duration=1.0):
+    """A disc, in space a sphere, let go on a slope; its friction is ``share`` of what rolling needs.
+
+    The error is that of velocity and spin (times the radius) at the end, relative to the speed.
+    """
+    positive(share=share, angle=angle, radius=radius, duration=duration)
+    if angle >= math.pi / 2:
+        raise ValueError(f"angle must be less than π/2, but is {angle!r}")
+    plane = Ground(dimension, slope=angle)
+    k = 1 / 2 if dimension == 2 else 2 / 5  # moment of inertia / (m r²)
+    needed = k / (1 + k) * math.tan(angle)
+    plane.ball(radius, (0.0, radius), friction=share * needed)
+    held = min(share, 1.0) * needed * math.cos(angle)  # friction / (m g)
+    a, α = G * (math.sin(angle) - held), -G * held / (k * radius)
+
+    def exact(t):
+        rest = 0 * t
+        place, speed = np.stack([0.5 * a * t**2, rest + radius], axis=1), np.stack([a * t, rest], axis=1)
+        return plane.moving(place, 0.5 * α * t**2, speed, α * t)
+
+    def measure(run, motion):
+        off = np.linalg.norm(run.velocity[-1, 1] - motion.velocity[-1, 1])
+        turns = np.linalg.norm(run.angular_velocity[-1, 1] - motion.angular_velocity[-1, 1])
+        return (off + radius * turns) / (a * duration)
+
+    return Case(
+        "descent",
+        plane.scene,
+        duration,
+        exact,
+        measure,
+        "of the speed",
+        "Rolling takes friction of I/(I + m r²) m g sin θ: it does not slip if μ ≥ ⅓ tan θ (disc), 2/7 tan θ "
+        "(sphere); else it slips, by Coulomb's law (Goldstein, Classical Mechanics, 1980, chapter 5).",
+        "Static friction below its limit must be found, not set to μ N.",
+    )
+
+
+def pulled_block(share=1.02, direction=0.7, duration=1.0):
+    """A cube of 1 m and 1 kg, μ = ½, pulled over level ground along ``direction``, rad, in space.
+
+    share: the pull over what friction bears, m g/2. The error: m where it sticks, else of the distance.
+    """
+    positive(share=share, duration=duration)
+    plane = Ground(3)
+    plane.box(0.5, 0.5, (0.0, 0.5), friction=0.5)
+    along, rate = np.array([math.cos(direction), math.sin(direction), 0.0]), 0.5 * G * max(0.0, share - 1)
+    force = np.stack([0 * along, 0.5 * G * share * along])
+    plane.scene.force(lambda t, state: (force, np.zeros_like(force)))
+
+    def exact(t):
+        still = standing(plane.scene)(t)
+        way, speed = np.zeros((len(t), 2, 3)), np.zeros((len(t), 2, 3))
+        way[:, 1], speed[:, 1] = 0.5 * rate * t[:, None] ** 2 * along, rate * t[:, None] * along
+        return still._replace(position=still.position + way, velocity=speed)
+
+    return Case(
+        "pulled_block",
+        plane.scene,
+        duration,
+        exact,
+        position_error(0.5 * rate * duration**2 or 1.0),
+        "of the distance" if rate else "m",
+        "Coulomb: friction is at most μ N in every direction, and opposed to the slip.",
+        "A pyramid inscribed in the cone bears as little as 1/√2 of it aslant, a box √2 times as much.",
     )
 
 

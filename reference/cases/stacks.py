@@ -67,6 +67,25 @@ def table(mass=8.0, leg=0.5, duration=2.0):
     )
 
 
+def heavy_on_two(heavy=400.0, dimension=2, duration=5.0):
+    """A box of 2.2 m and ``heavy`` kg on two cubes of 1 m and 1 kg, .2 m apart."""
+    positive(heavy=heavy, duration=duration)
+    plane = Ground(dimension)
+    for x in (-0.6, 0.6):
+        plane.box(0.5, 0.5, (x, 0.5))
+    plane.box(1.1, 1.1, (0.0, 2.1), mass=heavy)
+    return Case(
+        "heavy_on_two",
+        plane.scene,
+        duration,
+        standing(plane.scene),
+        position_error(1.0),
+        "m",
+        "Statics: nothing moves, and each cube carries half the box, heavy g/2.",
+        "Heavy on light: a sweep of Gauss–Seidel gains 1/heavy of what is missing.",
+    )
+
+
 def overhang(n=4, share=0.97, duration=2.0):
     """n blocks of 1 m × .2 m that lean out over a table's edge by ``share`` of the limit ½ Σ 1/k."""
     counted(n=n)

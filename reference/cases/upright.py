@@ -11,7 +11,7 @@ import numpy as np
 from ..joints import BallJoint, Distance, Hinge, Slider
 from ..rotation import over_arrays, rotate
 from ..scene import Scene
-from ..shapes import Box, Point
+from ..shapes import Box, Disc, Point, Sphere
 from .case import GRAVITY, Motion, checked_dimension
 
 JOINTS = ("hinge", "ball", "distance")
@@ -63,6 +63,11 @@ class Upright:
     def point(self, mass, place, velocity=(0.0, 0.0)):
         """Add a point mass; returns its number."""
         return self.scene.add(Point(), mass=mass, position=self.vector(place), velocity=self.vector(velocity))
+
+    def ball(self, radius, centre, **body):
+        """Add a disc, in space a sphere; returns its number. Further arguments are ``scene.add``'s."""
+        shape = Disc(radius) if self.dimension == 2 else Sphere(radius)
+        return self.scene.add(shape, position=self.vector(centre), **body)
 
     def join(self, kind, a, b, point):
         """Join with a "hinge" or a "ball" at a point; a "distance" is from a's centre to the point."""

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import bind, inner, lean
+from ..compiled import bind, inner, lean_apart
 from ..rotation import cross, vector
 from .boxes import box_ball, box_box, plane_box
 from .broad import find_pairs, row_of
@@ -92,7 +92,7 @@ def make_raw(d):
     )
 
 
-@lean
+@lean_apart
 def detect(touch, write_frame, solids, grid, pairs, spare, raw, contacts, state, margin, h):
     """(pairs, contacts) that there are. More than there is room for: make room and call again.
 

@@ -9,7 +9,7 @@
 Each is a formula over arrays; ``simulators.fixed_step`` uses them, and ``projection`` serves joints under
 "smooth" too. An error is φ of a joint, or a contact's gap where that is negative.
 
-Slides S9, S13; lectures/04_embedding.md.
+Slides S9, S13; lectures/09_error_correction.md.
 """
 
 from .baumgarte import baumgarte_velocity

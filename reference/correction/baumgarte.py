@@ -5,8 +5,8 @@
 The drift decays by 1 − fraction a step. But w is a real velocity: it stays in the bodies, and a deep overlap
 is thrown apart with fraction · depth/Δt.
 
-Slides S12, S13; lectures/05_contact.md. Source: Baumgarte, CMAME 1 (1972) 1; for a step of velocities: Catto,
-Iterative dynamics with temporal coherence (2005).
+Slides S13; lectures/09_error_correction.md. Source: Baumgarte, CMAME 1 (1972) 1; for a step of velocities:
+Catto, Iterative dynamics with temporal coherence (2005).
 """
 
 import numpy as np

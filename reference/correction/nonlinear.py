@@ -7,7 +7,7 @@ renews the geometry of each contact before it is its turn.
 
 Velocities are not touched. The error left after a few sweeps is the next step's.
 
-Slides S12, S13; lectures/05_contact.md. Source: Box2D 2.4, ``b2ContactSolver::SolvePositionConstraints``;
+Slides S13; lectures/09_error_correction.md. Source: Box2D 2.4, ``b2ContactSolver::SolvePositionConstraints``;
 Müller et al., J. Vis. Commun. Image Represent. 18 (2007) 109, for the same in position-based dynamics.
 """
 

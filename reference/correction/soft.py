@@ -10,7 +10,7 @@ is the row  w + γ λ + (β/Δt) φ = 0  with
 for any k and c, however stiff. Frequency and damping ratio say the same without knowing the masses:
 k = m ω², c = 2 m ζ ω, with m = 1/A_ii, what the row feels of the bodies' masses. γ → 0 is Baumgarte.
 
-Slides S12, S13; lectures/05_contact.md. Source: Catto, Soft constraints (2011); Lacoursière, Ghosts and
+Slides S13; lectures/09_error_correction.md. Source: Catto, Soft constraints (2011); Lacoursière, Ghosts and
 Machines (2007), for the implicit spring as a regularised constraint.
 """
 

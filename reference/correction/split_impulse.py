@@ -7,7 +7,7 @@
 The error decays as Baumgarte's does, but u⁺ knows nothing of it: no kinetic energy comes in. What is lifted
 still gains height. The price is a second solve.
 
-Slides S12, S13; lectures/05_contact.md. Source: Guendelman, Bridson & Fedkiw, ACM TOG 22 (2003) 871
+Slides S13; lectures/09_error_correction.md. Source: Guendelman, Bridson & Fedkiw, ACM TOG 22 (2003) 871
 (positions apart from velocities); Bullet's ``m_splitImpulse``.
 """
 

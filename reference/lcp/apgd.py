@@ -21,14 +21,13 @@ Candès, Found. Comput. Math. 15 (2015) 715; Mazhar, Heyn, Negrut & Tasora, ACM 
 import numpy as np
 
 from ..compiled import compiled
-from .iteration import iterate
+from .iteration import BLOWN_UP, iterate
 from .merit import clip, merit
 from .operators import product
 from .problem import ConeProblem
 from .solution import DIVERGED, MAX_ITERATIONS, SOLVED
 from .symmetry import why_no_box
 
-_BLOWN_UP = 1e12  # times what the residual was at first
 _DOUBLINGS = 60
 
 
@@ -48,7 +47,7 @@ def accelerate(follow, row, rows, change, project, measure, renew, A, terms, λ,
     L, θ = first_slope(follow, row, A, d, new, w_new), 1.0
     for k in range(len(history) - 1):
         history[k] = measure(terms, λ, w) / scale
-        if not tolerance < history[k] <= _BLOWN_UP * max(1.0, history[0]):
+        if not tolerance < history[k] <= BLOWN_UP * max(1.0, history[0]):
             return k, SOLVED if history[k] <= tolerance else DIVERGED
         if renew(terms, λ, w, shift):
             y[:], w_y[:], θ = λ, w, 1.0

@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
+from ..compiled import compiled, inner, inner_apart
 
 OPEN, STICKS, SLIDES = 0, 1, 2  # 3: slides the other way, in the plane
 ALONE = 4  # friction with a limit of its own; + 2: pressed, + 1: slides
@@ -66,8 +66,8 @@ def make_pass(rows, n, k):
     return Pass(np.empty(m), np.empty(m), np.zeros((m, 3)), np.zeros(blocks, np.int64), np.empty((n, k)))
 
 
-@compiled
-def inner(a, b):
+@inner
+def dot(a, b):
     """Σ a_k b_k."""
     total = 0.0
     for k in range(len(a)):
@@ -75,7 +75,7 @@ def inner(a, b):
     return total
 
 
-@compiled_apart
+@inner_apart
 def evaluate(rows, M, free, λ, law, u, out):
     """The augmented Lagrangian at u, with λ̂, P′ and the gradient into ``out``."""
     value, k = 0.0, u.shape[1]
@@ -93,7 +93,7 @@ def evaluate(rows, M, free, λ, law, u, out):
             for side in range(2):
                 i = rows.bodies[r, side]
                 if i >= 0:
-                    w += inner(rows.J[r, side], u[i])
+                    w += dot(rows.J[r, side], u[i])
             out.w[r] = w
             out.λ[r] = λ[r] - law.ρ[q] * (w + law.shift[q] if r == first else w)
         value += project(rows, q, first, end, law.give[q], law.limit[q], out) / law.ρ[q]
@@ -106,7 +106,7 @@ def evaluate(rows, M, free, λ, law, u, out):
     return value
 
 
-@compiled
+@inner
 def project(rows, q, first, end, give, limit, out):
     """P of block q in place, P′ and the state; returns the block's term of L times ρ, whose gradient P is.
 
@@ -141,7 +141,7 @@ def project(rows, q, first, end, give, limit, out):
     return slide(rows, q, n, tangential, give, out)
 
 
-@compiled
+@inner
 def slide(rows, q, n, tangential, give, out):
     """P on the cone's surface: f (1, μ t), with t the unit vector along which y pulls, f its share of y."""
     μ, first, d = rows.μ[q], rows.block[q], rows.block[q + 1] - rows.block[q]
@@ -161,7 +161,7 @@ def slide(rows, q, n, tangential, give, out):
     return 0.5 * (give + μ * μ) * f * f
 
 
-@compiled
+@inner
 def press(first, end, n, tangential, give, limit, q, out):
     """P where friction has a limit of its own: normal and tangents each by themselves."""
     pressed, slides = n > 0, tangential > limit
@@ -183,7 +183,7 @@ def press(first, end, n, tangential, give, limit, q, out):
     return value + limit * tangential - 0.5 * limit**2
 
 
-@compiled
+@inner
 def put_slope(slope, r, a, b, c):
     """Row r of P′."""
     slope[r, 0], slope[r, 1], slope[r, 2] = a, b, c

@@ -14,13 +14,11 @@ import numpy as np
 
 from ..compiled import compiled
 from ..factored import Factored
-from .iteration import iterate
+from .iteration import BLOWN_UP, iterate
 from .merit import cone_gap, larger
 from .one_contact import solve_contact
 from .solution import DIVERGED, MAX_ITERATIONS, SOLVED
 from .symmetry import why_no_cone
-
-_BLOWN_UP = 1e12  # times what the residual was at first
 
 
 @compiled
@@ -50,7 +48,7 @@ def cone_sweeps(follow, row, rows, change, A, terms, λ, scale, tolerance, histo
             if size == 3:
                 put(change, A, λ, x, c * size + 2, new[2])
         history[k] = worst / scale
-        if not tolerance < history[k] <= _BLOWN_UP * max(1.0, history[0]):
+        if not tolerance < history[k] <= BLOWN_UP * max(1.0, history[0]):
             λ[:] = λ_old
             return k, SOLVED if history[k] <= tolerance else DIVERGED
     return len(history) - 1, MAX_ITERATIONS

@@ -13,7 +13,8 @@ scaled A that is not 0: few passes, however heavy the top of a stack is.
 Coulomb's law (``ncp``) is not the gradient of anything, but becomes convex with a *shift* μ|w_t| added to
 w_n, taken from the pass before. With what sticks it is 0, and nothing is lost. Where passes stop helping, the
 other way is taken: friction's *limit* μ λ_n from the pass before (see ``coulomb``); where that stops, sweeps
-over the contacts (``contact_sweeps``), and the shift again from there.
+over the contacts (``contact_sweeps``), and the shift again from there. Where a pass has too many states to
+try, it begins from inside the cones (``cone_interior``), and the shifts are mixed from then on (``shift``).
 
 Slides S10, S14; lectures/08_newton_lcp.md. Source: Rockafellar, Math. Oper. Res. 1 (1976) 97 (augmented
 Lagrangian as proximal point method); Qi & Sun, Math. Programming 58 (1993) 353 (semismooth Newton); De
@@ -22,13 +23,15 @@ Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
+from ..compiled import compiled, compiled_apart, inner
 from ..factored import add_rows
-from .augmented import ContactRows, inner, make_law, make_pass
+from .augmented import ContactRows, dot, make_law, make_pass
+from .cone_interior import start_inside
 from .contact_sweeps import fill_moves, sweep_contacts, velocity
 from .coulomb import renew_limit, renew_shift
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
+from .shift import make_memory, mix_shifts
 from .smooth_pass import make_factor, solve_smooth
 from .solution import MAX_ITERATIONS, SOLVED, finish
 from .symmetry import why_no_box, why_no_cone
@@ -40,10 +43,11 @@ NEAR, SMALLEST = 1e-6, 1e-10  # ε at first, and where passes shrink the error t
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # w's rounding makes 1e-16/ε in λ: to polish, a larger ε
 NEAR_LIMIT, LARGEST, QUICKEST = 1e-4, 1.0, 1e-12  # where λ sets the limits, and so its rounding counts
 WILD = 10.0  # times the worst free w: limits that lead astray
-PATIENCE, FEW = 6, 32  # passes that may not halve the error; sweeps at first where they don't
+PATIENCE, SWEEPS = 6, 32  # passes that may not halve the error; sweeps at first where they don't
+FEW, MANY, FROM_INSIDE = 12, 50, 1e-4  # Newton steps in a pass; ε after more than a few of them
 
 
-@compiled
+@compiled_apart
 def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iterations, history, near=NEAR):
     """u (n, k) and λ (m,), which holds the start and is changed in place. M (n, k, k), free (n, k).
 
@@ -63,14 +67,28 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
     wanted = tolerance * scale
     if coulomb:
         renew_shift(rows, u, law)
-    ε, error, drift, limits, best, since, sweeps = near, np.inf, np.inf, False, np.inf, 0, FEW
+    ε, error, drift, limits, best, since, sweeps = near, np.inf, np.inf, False, np.inf, 0, SWEEPS
     raised, may_rest, kept, kept_error = False, True, λ.copy(), np.inf
+    most, memory = FEW, make_memory(blocks)
     for passes in range(max_iterations):
         weigh(ε, size, softness, law)
-        solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * wanted, out, trial)
+        steps = solve_smooth(
+            rows, M, free, λ, law, factor, u, 0.1 * wanted, out, trial, MANY if limits else most
+        )
+        if steps == most == FEW and not limits:  # too many states to try: come from inside the cones
+            start_inside(rows, M, free, λ, u, size, scale, factor, out)
+            if coulomb:
+                renew_shift(rows, u, law)
+            ε, drift, most = FROM_INSIDE, np.inf, MANY
+            weigh(ε, size, softness, law)
+            solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * wanted, out, trial, most)
         last, before, drift, changed = error, drift, renew(rows, out, λ, law.ρ) / scale, 0.0
-        if coulomb:
-            changed = (renew_limit(rows, λ, size, law) if limits else renew_shift(rows, u, law)) / scale
+        if coulomb and limits:
+            changed = renew_limit(rows, λ, size, law) / scale
+        elif coulomb and most == MANY:
+            changed = mix_shifts(rows, out.w, law.shift, memory, drift * scale) / scale
+        elif coulomb:
+            changed = renew_shift(rows, u, law) / scale
         error = max(drift, changed)
         if passes < len(history):
             history[passes] = error
@@ -79,8 +97,8 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
         since = 0 if error < 0.5 * best else since + 1
         best = error if limits and error > 100 * last else min(best, error)  # λ has got somewhere else
         lost = limits and not error < WILD
-        if coulomb and (lost or since >= (2 * PATIENCE if limits else PATIENCE)):  # the other way
-            if limits:
+        if coulomb and (lost or since >= (PATIENCE if most == FEW and not limits else 2 * PATIENCE)):
+            if limits:  # the other way
                 sweep_from_best(rows, moves, softness, free, λ, u, kept, error <= kept_error, wanted, sweeps)
                 renew_shift(rows, u, law)
                 sweeps *= 2
@@ -97,7 +115,7 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
             if limits:
                 may_rest = may_rest and (drift <= tolerance or ε <= NEAR_LIMIT)
                 ε = limit_weight(ε, error, last, may_rest and drift <= tolerance)
-            elif drift > max(0.25 * before, changed) and ε > SMALLEST:
+            elif drift > max(0.25 * before, changed) and ε > SMALLEST and most == FEW:
                 ε *= 0.01
             raised = ε > used
             if ε != used:
@@ -134,7 +152,7 @@ def limit_weight(ε, error, last, rests):
     return min(100 * ε, LARGEST) if rests else max(1e-4 * ε, QUICKEST)
 
 
-@compiled
+@inner
 def weigh(ε, size, softness, law):
     """ρ = 1/(ε A_cc), and what gives way for it."""
     for q in range(len(size)):
@@ -152,19 +170,20 @@ def block_sizes(rows, moves, free, size):
             diagonal = 0.0
             for side in range(2):
                 if rows.bodies[r, side] >= 0:
-                    diagonal += inner(rows.J[r, side], moves[r, side])
+                    diagonal += dot(rows.J[r, side], moves[r, side])
             size[q] = max(size[q], diagonal)
             scale = max(scale, abs(velocity(rows, r, free)))
     return scale
 
 
-@compiled
+@inner
 def renew(rows, out, λ, ρ):
     """λ ← λ̂. Returns the worst change, as a velocity."""
     worst = 0.0
     for q in range(len(ρ)):
         for r in range(rows.block[q], rows.block[q + 1]):
-            worst = max(worst, abs(out.λ[r] - λ[r]) / ρ[q])
+            change = abs(out.λ[r] - λ[r]) / ρ[q]
+            worst = max(worst, change) if change < np.inf else np.inf  # nan must not pass for 0
             λ[r] = out.λ[r]
     return worst
 

@@ -9,9 +9,9 @@ Slides S14, S16, S17; lectures/08_newton_lcp.md. Source: Jourdan, Alart & Jean, 
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
+from ..compiled import compiled, compiled_apart, inner
 from ..factored import add_row, row_times
-from .augmented import inner
+from .augmented import dot
 from .one_contact import solve_contact
 
 
@@ -25,7 +25,7 @@ def fill_moves(rows, M, moves):
                 divide_by_mass(M[i], rows.J[r, side], moves[r, side])
 
 
-@compiled
+@inner
 def divide_by_mass(M, a, out):
     """M⁻¹ a for one body: in space masses first, then the inertia (3, 3); else a diagonal M."""
     if len(a) != 6:
@@ -97,6 +97,6 @@ def own_blocks(rows, moves, softness):
             for e in range(size):
                 for side in range(2):
                     if rows.bodies[first, side] >= 0:
-                        own[q, a, e] += inner(rows.J[first + a, side], moves[first + e, side])
+                        own[q, a, e] += dot(rows.J[first + a, side], moves[first + e, side])
         own[q, 0, 0] += softness[q]
     return own

@@ -20,11 +20,12 @@ import scipy.optimize
 
 from .iteration import unsuitable
 from .pivoting import begun, refined, scaled
-from .solution import finish
+from .solution import finish, solves
 from .standard import plain, why_no_plain
 
 _MOST = 2**16  # cones
 _OFF, _NEAR, _SAME = 1e-9, 1e-6, 1e-8  # surely apart; worth a look; the same solution
+_NOISE = 1e-15
 _FLAT = 1e10  # what the inverse may grow to before a cone is taken for flat
 _FOUND = "λ solves the problem. All {cones} cones were tried: {words}"
 _NONE = (
@@ -89,7 +90,7 @@ def _search(problem, form, parts, groups, cones, tolerance):
             continue
         λ = refined(problem, parts.lam(z) * form.unit, parts.place(positive))
         known = (np.abs(λ - other).max(initial=0) <= _SAME * np.abs(λ).max(initial=0) for other in found)
-        if problem.residual(λ) <= tolerance and not any(known):
+        if solves(problem, λ, tolerance) and not any(known):
             found.append(λ)
         nearest = λ if problem.residual(λ) < problem.residual(nearest) else nearest
     if found:
@@ -127,6 +128,7 @@ def in_cone(M, q, positive):
         except RuntimeError:  # it found no end
             return None, None
         y = C @ sides - q
+        y[np.abs(y) <= _NOISE * (np.abs(C) @ sides + np.abs(q))] = 0  # rounding of what should cancel
     off = np.abs(y) @ np.abs(q) + 1e-300
     apart = y @ q < -_OFF * off and (y @ C).min() >= -_OFF * np.abs(y).max()
     near = (

@@ -56,6 +56,8 @@ def _square(shape):
 
 def bounds(lower, upper, n):
     """(lower, upper), each (n,): numbers or arrays, ±inf allowed; None: 0 and inf."""
+    if lower is None and upper is None:
+        return np.zeros(n), np.full(n, np.inf)
     both = _bound("lower", 0.0 if lower is None else lower, n), _bound("upper", _upper(upper), n)
     low, high = both
     crossed = np.flatnonzero(low > high)

@@ -17,11 +17,15 @@ _MOST = 10**8  # iterations: their history must fit into memory
 def checked(problem, start, tolerance, max_iterations):
     """(λ, tolerance, max_iterations) as a solver may use them; λ a new array, λ⁰ where start is None.
 
+    Where a row of A is 0 only one λ_i is right, and λ starts with that.
     Raises ValueError or TypeError, which name the argument.
     """
     if not isinstance(problem, (LCP, ConeProblem)):
         raise TypeError(f"problem must be an LCP or a ConeProblem, but is of type {type(problem).__name__}")
     λ = problem.origin.copy() if start is None else inputs.array("start", start, (problem.n,))
+    if len(problem.zero_rows):
+        bound = problem.bounds_of_zero_rows(λ)
+        λ[problem.zero_rows] = np.where(np.isfinite(bound), bound, λ[problem.zero_rows])
     tolerance = inputs.number("tolerance", tolerance, above=0)
     max_iterations = inputs.whole("max_iterations", max_iterations)
     if max_iterations > _MOST:

@@ -23,14 +23,14 @@ Stone, The Linear Complementarity Problem (2009), sections 4.4 and 4.9.
 import numpy as np
 
 from .. import inputs
-from ..compiled import compiled, compiled_apart
 from .iteration import unsuitable
-from .pivoting import begun, proves_infeasible, refined, scaled
-from .solution import CYCLE, MAX_ITERATIONS, RAY, SOLVED, STATUSES, finish
+from .lemke_path import follow_path, straight
+from .path_end import answer, proof
+from .pivoting import begun, scaled
+from .solution import MAX_ITERATIONS, RAY, SOLVED, STATUSES, finish
 from .standard import plain, why_no_plain
-from .tableau import Tableau, exchange
+from .tableau import Tableau
 
-_TINY, _TIE = 1e-11, 1e-12
 _SAYS = {
     "ray": "Lemke's path ran off along a ray: z₀ can't be brought to 0 from this covering vector. A is not "
     "copositive-plus, so that proves nothing: there may be a solution elsewhere.",
@@ -39,101 +39,6 @@ _SAYS = {
     "cycle": "The path came back to a vertex where it had been: ties broken by the first index lead round in "
     "a circle. Take ties='lexicographic'.",
 }
-
-
-@compiled_apart
-def follow_path(T, basic, nonbasic, at, most, lexicographic, saved):
-    """Pivot along the path until z₀ leaves; returns (pivots, code).
-
-    T (m, m + 2): columns of the nonbasic unknowns, then constants. basic (m,), nonbasic (m + 1,): i is w_i,
-    m + i is z_i, 2m is z₀. at (3,): the entering column, then as in ``principal.came_back``. saved (m,).
-    """
-    m = len(basic)
-    for k in range(most):
-        s = at[0]
-        r = first_row(T, s, lexicographic) if nonbasic[s] == 2 * m else -1
-        if r < 0:
-            r = leaving_row(T, basic, nonbasic, s, lexicographic)
-        if r < 0:
-            return k, RAY
-        exchange(T, r, s)
-        left = basic[r]
-        basic[r], nonbasic[s] = nonbasic[s], left
-        if left == 2 * m:
-            return k + 1, SOLVED
-        partner = left + m if left < m else left - m
-        for j in range(m + 1):
-            if nonbasic[j] == partner:
-                at[0] = j
-        same = True
-        for i in range(m):
-            same = same and saved[i] == basic[i]
-        if same:
-            return k + 1, CYCLE
-        at[1] += 1
-        if at[1] >= at[2]:
-            at[1], at[2] = 0, 2 * at[2]
-            saved[:] = basic
-    return most, MAX_ITERATIONS
-
-
-@compiled
-def first_row(T, s, lexicographic):
-    """The row that leaves when z₀ enters, in column s: the last to become right as z₀ grows."""
-    row, least = -1, 0.0
-    for i in range(len(T)):
-        if T[i, s] > 0:
-            ratio = T[i, -1] / T[i, s]
-            if ratio < least or (ratio == least < 0 and lexicographic):
-                row, least = i, ratio
-    return row
-
-
-@compiled_apart
-def leaving_row(T, basic, nonbasic, s, lexicographic):
-    """The row whose unknown is the first to become 0 as that of column s grows from 0; −1 if none is.
-
-    A tie goes to z₀; then to the lexicographically least row, or to the first.
-    """
-    m = len(basic)
-    largest, top = 0.0, 0.0
-    for i in range(m):
-        largest, top = max(largest, abs(T[i, s])), max(top, abs(T[i, m + 1]))
-    tiny, least = _TINY * largest, np.inf
-    for i in range(m):
-        if T[i, s] < -tiny:
-            least = min(least, max(T[i, m + 1], 0.0) / -T[i, s])
-    row = -1
-    for i in range(m):
-        q = max(T[i, m + 1], 0.0)
-        if T[i, s] < -tiny and q + T[i, s] * least <= _TIE * q + 1e-15 * top:
-            if basic[i] == 2 * m:
-                return i
-            if row < 0 or (lexicographic and before(T, basic, nonbasic, s, i, row)):
-                row = i
-    return row
-
-
-@compiled_apart
-def before(T, basic, nonbasic, s, i, r):
-    """Whether row i comes before row r in the lexicographic order of their ratios.
-
-    With q + (ε, ε², …) in place of q, a row's value gets ε^k times its number in column k of the inverse of
-    the basis: 1 where w_k is its own unknown, − the tableau's number where w_k is nonbasic.
-    """
-    m = len(basic)
-    column = np.full(m, -1)
-    for j in range(m + 1):
-        if nonbasic[j] < m:
-            column[nonbasic[j]] = j
-    for k in range(m):
-        of_i, of_r = 1.0 if basic[i] == k else 0.0, 1.0 if basic[r] == k else 0.0
-        if column[k] >= 0:
-            of_i, of_r = -T[i, column[k]], -T[r, column[k]]
-        of_i, of_r = of_i / -T[i, s], of_r / -T[r, s]
-        if abs(of_i - of_r) > _TIE * max(abs(of_i), abs(of_r)):
-            return of_i < of_r
-    return False
 
 
 def lemke(
@@ -161,15 +66,21 @@ def lemke(
         raise ValueError(f"cover must be at least 0, but holds {c.min():g}")
     if solution:
         return solution
+    if problem.is_plain and isinstance(problem.A, np.ndarray) and cover is None and not record:
+        λ, done, code = straight(problem.A, problem.b, most, ties == "lexicographic")
+        if code == SOLVED:
+            solution = finish(problem, λ, done, code, tolerance, history=[1.0, 0.0] if done else [0.0])
+            if solution.solved:
+                return solution
     form = scaled(problem)
     reason = why_no_plain(form)
     if reason:
         return unsuitable(problem, λ, tolerance, reason)
     parts = plain(form)
     c = np.where(parts.kind == 1, 1.0, (c * (form.weight / form.weight.max()))[parts.row])
-    bare = np.flatnonzero((c == 0) & (parts.q < 0))
-    if len(bare):
-        i = parts.row[bare[0]]
+    uncovered = np.flatnonzero((c == 0) & (parts.q < 0))
+    if len(uncovered):
+        i = parts.row[uncovered[0]]
         raise ValueError(f"cover must be positive where w is wrong at λ⁰, but is 0 in row {i}")
     return _solve(problem, form, parts, c, tolerance, most, ties == "lexicographic", record)
 
@@ -191,12 +102,11 @@ def _solve(problem, form, parts, c, tolerance, most, lexicographic, record):
                 seen.append(_written(parts, *path, f"pivot {done}"))
             elif every < most and code == MAX_ITERATIONS:
                 _renew(parts, c, T, basic, nonbasic)
-        λ, proof = _answer(problem, form, parts, T, basic), None
-        if code == RAY:
-            proof = _proof(problem, form, parts, *path)
-        word = "infeasible" if proof else STATUSES[code]
+        λ = answer(problem, form, parts, *path[:3])
+        proved = proof(problem, form, parts, *path[:3], at[0]) if code == RAY else None
+        word = "infeasible" if proved else STATUSES[code]
         ends = {"reason": _SAYS.get(word), "history": [1.0, 0.0] if done else [0.0]}  # the start is λ⁰
-        solution = finish(problem, λ, done, word, tolerance, certificate=proof, record=seen, **ends)
+        solution = finish(problem, λ, done, word, tolerance, certificate=proved, record=seen, **ends)
         if solution.status not in ("ray", "diverged"):
             break
     return solution
@@ -218,31 +128,6 @@ def _renew(parts, c, T, basic, nonbasic):
         return
     if np.isfinite(new).all():
         T[:] = new
-
-
-def _answer(problem, form, parts, T, basic):
-    """λ of the vertex where the path is, its equations solved afresh."""
-    m = len(basic)
-    z = np.zeros(2 * m + 1)
-    z[basic] = T[:, -1]
-    on = np.isin(np.arange(m, 2 * m), basic)
-    return refined(problem, parts.lam(z[m : 2 * m]) * form.unit, parts.place(on))
-
-
-def _proof(problem, form, parts, T, basic, nonbasic, at):
-    """What proves that there is no solution, from the direction of the ray; None where it doesn't."""
-    m, s = len(basic), at[0]
-    along = np.zeros(2 * m + 1)
-    along[basic], along[nonbasic[s]] = T[:, s], 1.0
-    z = along[m : 2 * m]
-    z[np.abs(z) <= _TINY * np.abs(along).max()] = 0
-    y = parts.multipliers(z)
-    rows, columns = parts.solved
-    if len(rows):  # those of the rows solved for follow: they make yᵀA vanish there
-        y[rows] = 0
-        y[rows] = np.linalg.solve(form.A[np.ix_(rows, columns)].T, -(y @ form.A)[columns])
-    y = y * form.weight
-    return {"y": y / np.abs(y).max()} if proves_infeasible(problem, y) else None
 
 
 def _written(parts, T, basic, nonbasic, at, note):

@@ -86,9 +86,11 @@ def gap(terms, λ, i, w):
 
 @compiled
 def merit(terms, λ, w):
-    """max |r_i| of an LCP at λ (n,), with w (n,) = A λ + b; NaN where anything is."""
+    """max |r_i| of an LCP at λ (n,), with w (n,) = A λ + b; inf where λ or w isn't finite."""
     worst = 0.0
     for i in range(len(λ)):
+        if not (abs(λ[i]) < np.inf and abs(w[i]) < np.inf):
+            return np.inf
         worst = larger(worst, abs(gap(terms, λ, i, w[i])))
     return worst
 
@@ -124,8 +126,11 @@ def cone_gap(terms, λ, k, w_n, w_1, w_2):
 
 @compiled
 def cone_merit(terms, λ, w):
-    """max |r_i| of a cone problem at λ (n,), with w (n,) = A λ + b; NaN where anything is."""
+    """max |r_i| of a cone problem at λ (n,), with w (n,) = A λ + b; inf where λ or w isn't finite."""
     worst = 0.0
+    for i in range(len(λ)):
+        if not (abs(λ[i]) < np.inf and abs(w[i]) < np.inf):
+            return np.inf
     for k in range(len(terms.mu)):
         i = k * terms.size
         r_n, r_1, r_2 = cone_gap(terms, λ, k, w[i], w[i + 1], w[i + 2] if terms.size == 3 else 0.0)

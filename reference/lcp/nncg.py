@@ -18,11 +18,9 @@ import numpy as np
 
 from ..compiled import compiled
 from .gauss_seidel import natural_order
-from .iteration import iterate
+from .iteration import BLOWN_UP, iterate
 from .merit import bounds, clip, gap, larger
 from .solution import DIVERGED, MAX_ITERATIONS, SOLVED
-
-_BLOWN_UP = 1e12  # times what the residual was at first
 
 
 @compiled
@@ -53,7 +51,7 @@ def conjugate_sweeps(follow, row, rows, change, A, terms, λ, scale, tolerance, 
         x_old[:] = x
         worst, size = sweep_once(row, rows, change, A, terms, λ, x, λ_old, x_old, order)
         history[k] = worst / scale
-        if not tolerance < history[k] <= _BLOWN_UP * max(1.0, history[0]):
+        if not tolerance < history[k] <= BLOWN_UP * max(1.0, history[0]):
             λ[:] = λ_old
             return k, SOLVED if history[k] <= tolerance else DIVERGED
         β, size_before = size / size_before, size

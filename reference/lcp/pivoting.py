@@ -17,9 +17,8 @@ Complementarity Problem (2009), section 2.7 (Farkas).
 from typing import NamedTuple
 
 import numpy as np
-import scipy.sparse
 
-from ..factored import Factored
+from ..compiled import compiled
 from .iteration import checked, solved_already, unsuitable
 from .problem import LCP
 
@@ -41,9 +40,8 @@ class Scaled(NamedTuple):
 
 
 def dense(A):
-    """A new dense array (n, n), whatever A is."""
-    sparse = isinstance(A, Factored) or scipy.sparse.issparse(A)
-    return np.ascontiguousarray(A.toarray() if sparse else A.copy())
+    """A as a dense array (n, n), not to be written into: A itself, where it is one."""
+    return A if isinstance(A, np.ndarray) else np.ascontiguousarray(A.toarray())
 
 
 def why_not(problem, largest=LARGEST):
@@ -76,46 +74,68 @@ def begun(problem, start, tolerance, max_iterations, largest=LARGEST):
 def scaled(problem):
     """The Scaled form of an LCP."""
     A = dense(problem.A)
-    row, column = _equilibrated(A)
+    row, column = equilibrated(A)
     with np.errstate(all="ignore"):
-        w = problem.w(problem.origin) if problem.origin.any() else problem.b
-        size = np.abs(row * w).max(initial=0)
-        beta = _power_of_two(1 / size) if 0 < size < np.inf else 1.0
-        unit = column / beta
+        if problem.n and not (np.array_equal(row, column) and (row == 1).all()):
+            A = A * (row[:, None] * column)
+        beta = power_of_two(1 / np.abs(row * problem.w_at_origin).max(initial=0))
+        unit, weight = column / beta, beta * row
         lower, upper = problem.lower / unit, problem.upper / unit
     normal, mu = problem.terms.normal, problem.terms.mu
-    mu = mu * np.where(normal >= 0, unit[normal], 1) / unit if problem.n else mu
-    if (row != 1).any() or (column != 1).any():
-        A *= row[:, None] * column
-    return Scaled(A, beta * row * problem.b, lower, upper, normal, mu, unit, beta * row)
+    if problem.has_friction:
+        mu = mu * np.where(normal >= 0, unit[normal], 1) / unit
+    return Scaled(A, weight * problem.b, lower, upper, normal, mu, unit, weight)
 
 
-def _power_of_two(x):
-    """The powers of two nearest to x > 0; 1 for what is not a positive number."""
-    with np.errstate(all="ignore"):
-        usable = (x > 0) & (x < np.inf)
-        return np.where(usable, np.exp2(np.round(np.log2(np.where(usable, x, 1.0)))), 1.0)
+@compiled
+def power_of_two(x):
+    """The power of two nearest to x > 0; 1 for what is not a positive number."""
+    return np.exp2(np.floor(np.log2(x) + 0.5)) if 0 < x < np.inf else 1.0
 
 
-def _equilibrated(A):
+@compiled
+def equilibrated(A):
     """(row, column), powers of two (n,) each, that bring the largest of each row and column of A near 1."""
-    size = np.abs(A)
-    row, column = np.ones(len(A)), np.ones(len(A))
+    n, size = len(A), np.abs(A)
+    row, column = np.ones(n), np.ones(n)
     for _ in range(3):
-        if not len(A):
+        by_row, by_column = peaks(size)
+        if near_one(by_row) and near_one(by_column):
             break
-        by_row, by_column = size.max(axis=1), size.max(axis=0)
-        if _near_one(by_row) and _near_one(by_column):
-            break
-        r, c = (_power_of_two(1 / np.sqrt(np.where(peak > 0, peak, 1))) for peak in (by_row, by_column))
-        size *= r[:, None] * c
-        row, column = row * r, column * c
+        for i in range(n):
+            by_row[i], by_column[i] = power_of_two(by_row[i] ** -0.5), power_of_two(by_column[i] ** -0.5)
+        for i in range(n):
+            size[i] *= by_row[i] * by_column
+        row *= by_row
+        column *= by_column
     return row, column
 
 
-def _near_one(peaks):
-    peaks = peaks[peaks > 0]
-    return len(peaks) == 0 or (peaks.min() > 0.49 and peaks.max() < 2.1)
+@compiled
+def peaks(size):
+    """(by_row, by_column): the largest of each row and column of size (n, n) ≥ 0.
+
+    Read as whole numbers, the bits of such doubles have the same order; and of whole numbers, none of which
+    can be NaN, a compiler may compare several at once.
+    """
+    n, bits = len(size), size.view(np.int64)
+    by_row, by_column = np.zeros(n, np.int64), np.zeros(n, np.int64)
+    for i in range(n):
+        largest = np.int64(0)
+        for j in range(n):
+            largest = max(largest, bits[i, j])
+            by_column[j] = max(by_column[j], bits[i, j])
+        by_row[i] = largest
+    return by_row.view(np.float64), by_column.view(np.float64)
+
+
+@compiled
+def near_one(largest):
+    """Whether all numbers (n,) but zeros are near 1."""
+    fine = True
+    for peak in largest:
+        fine = fine and (peak == 0 or 0.49 < peak < 2.1)
+    return fine
 
 
 def refined(problem, λ, place):
@@ -151,7 +171,7 @@ def _correction(problem, λ, place, free):
     normal, μ = problem.terms.normal, problem.terms.mu
     follow = np.flatnonzero((normal >= 0) & (place != INSIDE))  # these move with their normals
     sign = np.where(place[follow] == UPPER, 1, -1) * μ[follow]
-    A, change = problem.A if isinstance(problem.A, np.ndarray) else dense(problem.A), np.zeros(problem.n)
+    A, change = dense(problem.A), np.zeros(problem.n)
     system = A[free]
     if len(follow):
         np.add.at(system.T, normal[follow], (system[:, follow] * sign).T)
@@ -181,8 +201,8 @@ def proves_infeasible(problem, y):
     may_fall = np.isfinite(terms.upper) | (terms.normal >= 0)
     if (y[may_rise] < 0).any() or (y[may_fall] > 0).any():
         return False
-    force, size = y @ problem.A if isinstance(problem.A, np.ndarray) else dense(problem.A).T @ y, 0.0
-    noise = 1e-12 * (np.abs(dense(problem.A)).T @ np.abs(y))
+    A = dense(problem.A)
+    force, noise = y @ A, 1e-12 * (np.abs(y) @ np.abs(A))
     force[np.abs(force) <= noise] = 0
     for t in np.flatnonzero((terms.normal >= 0) & (force != 0)):
         if terms.lower[terms.normal[t]] < 0:

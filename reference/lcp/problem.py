@@ -40,18 +40,20 @@ class _Problem:
         inf where λ or w are not finite, and where only λ⁰ solves exactly. Never NaN.
         """
         λ = np.asarray(λ, dtype=float)
-        w = self.w(λ) if w is None else w
-        if not (np.isfinite(λ).all() and np.isfinite(w).all()):
-            return np.inf
-        return relative(self._merit(λ, w), self.scale)
+        return relative(self._merit(λ, self.w(λ) if w is None else w), self.scale)
 
-    hopeless = ()
+    zero_rows = ()
 
     @cached_property
     def scale(self):
         """The merit of λ⁰, by which every other is divided; inf where the numbers are too large for that."""
-        value = self._merit(self.origin, self.w(self.origin))
+        value = self._merit(self.origin, self.w_at_origin)
         return value if np.isfinite(value) else np.inf
+
+    @property
+    def w_at_origin(self):
+        """w of λ⁰ (n,), not to be written into."""
+        return self.w(self.origin) if self.origin.any() else self.b
 
     def _merit(self, λ, w):
         with np.errstate(all="ignore"):
@@ -74,15 +76,24 @@ class LCP(_Problem):
         super().__init__(A, b)
         low, high = given.bounds(lower, upper, self.n)
         normal, μ = given.friction(friction, self.n)
-        low[normal >= 0], high[normal >= 0] = -np.inf, np.inf
-        self.terms = Terms(self.b, row_scales(self.A), low, high, normal, μ)
+        self.has_friction = friction is not None and bool((normal >= 0).any())
+        if self.has_friction:
+            low[normal >= 0], high[normal >= 0] = -np.inf, np.inf
+        # Whether it only asks λ ≥ 0, w ≥ 0, λᵀw = 0
+        self.is_plain = (lower is None and upper is None and friction is None) or not (
+            self.has_friction or low.any() or (high < np.inf).any()
+        )
+        d, empty = row_scales(self.A)
+        self.terms = Terms(self.b, d, low, high, normal, μ)
         self.lower, self.upper = low, high
-        self.has_friction = bool((normal >= 0).any())
+        # Rows of zeros in A whose w_i = b_i has a sign: whatever else, λ_i must be at one of its bounds.
+        # There the residual has no unit to measure with, and would call b_i small beside large λ.
+        self.zero_rows = empty[self.b[empty] != 0]
 
     @cached_property
     def origin(self):
         """λ⁰ = clip(0, lower, upper) (n,)."""
-        return np.clip(0.0, self.lower, self.upper)
+        return np.minimum(np.maximum(0.0, self.lower), self.upper)
 
     def bounds(self, λ):
         """(lower, upper), each (n,), at this λ: friction rows have ±μ λ_n."""
@@ -90,16 +101,10 @@ class LCP(_Problem):
         most = μ * np.maximum(np.asarray(λ, dtype=float)[normal], 0) if self.n else μ
         return np.where(normal >= 0, -most, low), np.where(normal >= 0, most, high)
 
-    @cached_property
-    def hopeless(self):
-        """A row of zeros in A whose w_i = b_i has a sign that no λ_i makes right, as an array (0 or 1,).
-
-        There the residual has no unit to measure with, and would call it small beside large λ.
-        """
-        low, high = self.terms.lower, self.terms.upper
-        rows = np.flatnonzero(((self.b < 0) & (high == np.inf)) | ((self.b > 0) & (low == -np.inf)))
-        rows = rows[self.terms.normal[rows] < 0]
-        return rows[row_peaks(self.A, rows) == 0][:1] if len(rows) else rows
+    def bounds_of_zero_rows(self, λ):
+        """The bound (k,) that each of ``zero_rows`` must be at; ±inf where no λ_i is right."""
+        low, high = (bound[self.zero_rows] for bound in self.bounds(λ))
+        return np.where(self.b[self.zero_rows] > 0, low, high)
 
     def __repr__(self):
         return f"LCP of {self.n} rows, A {form(self.A)}{', with friction bounds' * self.has_friction}"
@@ -124,7 +129,7 @@ class ConeProblem(_Problem):
         self.law = inputs.choice("law", law, ("ncp", "ccp"))
         self.size = _block_size(self.n, mu, dimension)
         self.mu = given.coefficients(mu, self.n // self.size)
-        d = row_scales(self.A, self.size)
+        d, _ = row_scales(self.A, self.size)
         self.terms = ConeTerms(self.b, d, self.mu, self.size, law == "ncp")
 
     @cached_property
@@ -151,15 +156,18 @@ def form(A):
 
 
 def row_scales(A, size=1):
-    """d, one for each block of ``size`` rows: its largest A_ii if that is positive, else its largest |A_ij|,
-    else 1.
+    """(d, empty): d, one for each block of ``size`` rows: its largest A_ii if that is positive, else its
+    largest |A_ij|, else 1; empty (k,): the blocks where it is that 1.
     """
-    d = A.diagonal().reshape(-1, size).max(axis=1, initial=-np.inf).astype(float)
+    d = A.diagonal().astype(float)
+    d = d if size == 1 else d.reshape(-1, size).max(axis=1, initial=-np.inf)
     rest = np.flatnonzero(~(d > 0))
-    if len(rest):
-        rows = (rest[:, None] * size + np.arange(size)).ravel()
-        d[rest] = row_peaks(A, rows).reshape(-1, size).max(axis=1)
-    return np.where(d > 0, d, 1.0)
+    if not len(rest):
+        return d, rest
+    rows = (rest[:, None] * size + np.arange(size)).ravel()
+    peaks = row_peaks(A, rows).reshape(-1, size).max(axis=1)
+    d[rest] = np.where(peaks > 0, peaks, 1.0)
+    return d, rest[peaks == 0]
 
 
 def row_peaks(A, rows):

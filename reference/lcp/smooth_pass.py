@@ -11,45 +11,50 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart
-from .augmented import ALONE, OPEN, SLIDES, evaluate, inner
-from .envelope import Envelope, add_block, cholesky_in_envelope, make_envelope, solve_in_envelope
+from ..compiled import compiled, inner, inner_apart
+from .augmented import ALONE, OPEN, SLIDES, dot, evaluate
+from .block_cholesky import BlockFactor, add_block, clear, factorise, make_block_factor, solve
 
-MOST_NEWTON, MOST_HALVINGS = 50, 30
+MOST_HALVINGS = 30
 
 
 class Factor(NamedTuple):
-    """The matrix's factor, and for which states it was made."""
+    """The matrix's factor, for which states it was made, and room to compute in."""
 
-    envelope: Envelope
-    L: np.ndarray
+    blocks: BlockFactor
     made: np.ndarray  # (B,)
+    move: np.ndarray  # (n, k): Newton's step
+    tried: np.ndarray  # (n, k): u after a part of it
+    row: np.ndarray  # (k,)
 
 
 @compiled
 def make_factor(rows, n, k):
     """Room for the factor; made for no states yet."""
-    envelope = make_envelope(rows.bodies, n, k)
-    return Factor(envelope, np.empty(envelope.start[-1]), np.full(len(rows.μ), -1))
+    blocks, made = make_block_factor(rows.bodies, n, k), np.full(len(rows.μ), -1)
+    return Factor(blocks, made, np.empty((n, k)), np.empty((n, k)), np.empty(k))
 
 
-@compiled_apart
-def solve_smooth(rows, M, free, λ, law, factor, u, tolerance, out, trial):
-    """Newton's method for one pass, with step halving: u in place, what ``evaluate`` finds there in out."""
+@inner_apart
+def solve_smooth(rows, M, free, λ, law, factor, u, tolerance, out, trial, most):
+    """Newton's method for one pass, with step halving: u in place, what ``evaluate`` finds there in out.
+
+    Returns how many steps it took: ``most`` if they were not enough.
+    """
     value = evaluate(rows, M, free, λ, law, u, out)
-    move, tried = np.empty_like(u), np.empty_like(u)
+    move, tried = factor.move, factor.tried
     rest, before, whole = worst_rate(M, out.gradient), np.inf, False
-    for _ in range(MOST_NEWTON):
+    for step in range(most):
         fresh = stands_for(rows, factor.made, out.state)
         if rest <= tolerance or (whole and fresh and rest > 0.5 * before):  # good, or as rounding lets it be
-            return
+            return step
         if not fresh:
             fill_matrix(rows, M, law.ρ, out, factor)
-            cholesky_in_envelope(factor.envelope, factor.L)
-        solve_in_envelope(factor.envelope, factor.L, out.gradient, move)
+            factorise(factor.blocks)
+        solve(factor.blocks, out.gradient, move)
         downhill, length, new = 0.0, 1.0, np.inf
         for i in range(len(u)):
-            downhill -= inner(out.gradient[i], move[i])
+            downhill -= dot(out.gradient[i], move[i])
         for _ in range(MOST_HALVINGS):
             for i in range(len(u)):
                 for a in range(u.shape[1]):
@@ -59,12 +64,32 @@ def solve_smooth(rows, M, free, λ, law, factor, u, tolerance, out, trial):
                 break
             length *= 0.5
         whole, value, before = length == 1.0, new, rest
-        u[:], out.w[:], out.λ[:], out.slope[:] = tried, trial.w, trial.λ, trial.slope
-        out.state[:], out.gradient[:] = trial.state, trial.gradient
+        copy_all(tried, u)
+        copy_pass(trial, out)
         rest = worst_rate(M, out.gradient)
+    return most
 
 
-@compiled
+@inner
+def copy_pass(a, to):
+    """What ``evaluate`` found, to where it stays."""
+    for r in range(len(a.w)):
+        to.w[r], to.λ[r] = a.w[r], a.λ[r]
+    for q in range(len(a.state)):
+        to.state[q] = a.state[q]
+    copy_all(a.slope, to.slope)
+    copy_all(a.gradient, to.gradient)
+
+
+@inner
+def copy_all(a, to):
+    """Copy a matrix."""
+    for i in range(a.shape[0]):
+        for k in range(a.shape[1]):
+            to[i, k] = a[i, k]
+
+
+@inner
 def stands_for(rows, made, state):
     """Whether the matrix made for some states serves these too; what slides in space always changes it."""
     for q in range(len(state)):
@@ -74,7 +99,7 @@ def stands_for(rows, made, state):
     return True
 
 
-@compiled
+@inner
 def worst_rate(M, gradient):
     """The worst entry of M⁻¹ times the gradient, roughly: by the diagonal of M."""
     worst = 0.0
@@ -84,18 +109,18 @@ def worst_rate(M, gradient):
     return worst
 
 
-@compiled_apart
+@inner_apart
 def fill_matrix(rows, M, ρ, out, factor):
     """M + ρ Jᵀ P′ J, block by block."""
-    k, envelope, L = M.shape[1], factor.envelope, factor.L
-    L[:] = 0
-    factor.made[:] = out.state
-    unit, weighted = np.zeros(k), np.empty(k)
+    k, weighted = M.shape[1], factor.row
+    clear(factor.blocks)
+    for q in range(len(factor.made)):
+        factor.made[q] = out.state[q]
     for i in range(len(M)):
+        p = factor.blocks.pattern.place[i]
         for a in range(k):
-            unit[a] = 1.0
-            add_block(envelope, L, i, i, k, unit, M[i, a], 1.0)
-            unit[a] = 0.0
+            for b in range(k):
+                factor.blocks.diagonal[p, a, b] = M[i, a, b]
     for q in range(len(rows.μ)):
         if out.state[q] == OPEN:
             continue
@@ -105,11 +130,11 @@ def fill_matrix(rows, M, ρ, out, factor):
                 i = rows.bodies[r, side]
                 if i < 0:
                     continue
-                weighted[:] = 0
-                for s in range(first, end):
-                    for a in range(k):
+                for a in range(k):
+                    weighted[a] = 0.0
+                    for s in range(first, end):
                         weighted[a] += out.slope[r, s - first] * rows.J[s, side, a]
                 for other in range(2):
                     j = rows.bodies[r, other]
                     if j >= 0:
-                        add_block(envelope, L, i, j, k, weighted, rows.J[r, other], ρ[q])
+                        add_block(factor.blocks, i, j, weighted, rows.J[r, other], ρ[q])

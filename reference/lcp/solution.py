@@ -60,6 +60,24 @@ class Solution:
         return self.status == "solved"
 
 
+def misplaced(problem, λ, tolerance):
+    """(i, its bound): a row of zeros in A whose λ_i isn't where alone it may be; (None, 0) where none is.
+
+    The residual doesn't see it: what w_i comes to has no unit there.
+    """
+    if len(problem.zero_rows):
+        bound = problem.bounds_of_zero_rows(λ)
+        off = np.flatnonzero(~(np.abs(λ[problem.zero_rows] - bound) <= tolerance * problem.scale))
+        if len(off):
+            return int(problem.zero_rows[off[0]]), bound[off[0]]
+    return None, 0
+
+
+def solves(problem, λ, tolerance):
+    """Whether λ (n,) is what is called a solution."""
+    return problem.residual(λ) <= tolerance and misplaced(problem, λ, tolerance)[0] is None
+
+
 def finish(
     problem, λ, iterations, code, tolerance, *, reason=None, history=None, certificate=None, record=()
 ):
@@ -81,10 +99,15 @@ def finish(
     history = np.array(history, dtype=float)
     history[-1] = residual
     status, words = believed, reason or _REASONS[believed]
-    if residual <= tolerance and len(problem.hopeless):
-        i = int(problem.hopeless[0])
-        status, certificate = "infeasible", np.sign(-problem.b[i]) * (np.arange(problem.n) == i)
-        words = f"row {i} of A is 0, so w_{i} = {problem.b[i]:.3g} whatever λ is, and no λ_{i} fits that"
+    i, bound = misplaced(problem, λ, tolerance) if residual <= tolerance else (None, 0)
+    if i is not None:
+        words = f"Row {i} of A is 0, so w_{i} = {problem.b[i]:.3g} whatever λ is, "
+        if np.isinf(bound):
+            status, certificate = "infeasible", {"y": np.sign(-problem.b[i]) * (np.arange(problem.n) == i)}
+            words += f"and no λ_{i} fits that."
+        else:
+            status = "diverged" if believed == "solved" else believed
+            words += f"and λ_{i} must be at its bound {bound:.3g}, but is {λ[i]:.3g}."
     elif residual <= tolerance:
         status, certificate = "solved", None
         words = reason if reason and believed == "solved" else _REASONS["solved"]

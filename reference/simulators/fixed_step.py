@@ -10,7 +10,8 @@ that way, and joints open. The ``correction`` is what is done about it:
     split_impulse   a second solve for velocities that move the bodies, and are forgotten
     nonlinear       sweeps over the positions after the step
 
-Slides S9, S12, S13; lectures/05_contact.md. Source: Catto, Iterative dynamics with temporal coherence (2005).
+Slides S9, S13; lectures/09_error_correction.md. Source: Catto, Iterative dynamics with temporal
+coherence (2005).
 """
 
 import numpy as np
@@ -32,6 +33,8 @@ from .velocity_lcp import VelocityLCP
 
 class FixedStep(VelocityLCP):
     """A scene made ready to run by S9's step, with a correction that is not the projection."""
+
+    coasts = False
 
     def __init__(self, scene, bodies, settings):
         self.correction, self.parameters = settings.correction

@@ -10,28 +10,136 @@ touch each other, do the same. So contact never feeds energy into a scene, whate
 Slides S9, S12; lectures/05_contact.md.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
 from ..bodies import planar, times
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart, inner, lean
+from ..contacts import contact_rows, gather, keys, label_islands, look_up, spread
 from ..integrators.splitting import drift_by_midpoint, finish_free_rotation
 from ..rotation import quaternion, rotate, rotate_back, store, vector
+from .held import join
+from .resting import leave_out_rest, put_back
+
+REST = 100  # times the solver's tolerance: so slow is at rest, where contacts hold it
 
 
-@compiled
+class Speeds(NamedTuple):
+    """What a step begins with: n bodies with k velocities each."""
+
+    M: np.ndarray  # (n, k, k)
+    before: np.ndarray  # (n, k): u
+    free: np.ndarray  # (n, k): what u would become without contact
+    f: np.ndarray  # (n, d): of the forces, room to compute in
+    τ: np.ndarray  # (r, 3) or (r, 1)
+
+
+class Limits(NamedTuple):
+    """What a run goes by."""
+
+    tolerance: float  # of the contacts' solver
+    iterations: int
+    closed: float  # m: a gap that counts as none
+    bodies: int  # in the scene
+    warm: bool  # whether a solve starts from the forces before
+
+
+class Turning(NamedTuple):
+    """Limits of the iteration by which a body turns (``splitting.drift_by_midpoint``); what it took; room."""
+
+    max_iterations: int
+    tolerance: float
+    solve: np.ndarray  # (2,): iterations, residual
+    L: np.ndarray  # (r, 3), or (0, 3) in the plane
+
+
+@compiled_apart
+def flight(solve, system, state, work, speeds, contacts, held, known, pushed, h, share, limits, worst):
+    """Move on by h s among these contacts and the joints' rows ``held``, without rebound.
+
+    solve(rows, M, free, λ, limits, worst) → u⁺, λ in place. known (c,), pushed (c, d): keys and forces of
+    the contacts before, N. share: h over the time for which ``speeds`` was filled. Returns the keys (m,), the
+    impulses (m, d) in the contacts' frames, and λ of all rows.
+    """
+    rows, gap, free, key, λ = prepare(contacts, held, speeds, known, pushed, h, share, limits)
+    moving = leave_out_rest(rows, speeds.M, speeds.before, free, λ, limits.tolerance)
+    found = solve(moving.rows, moving.M, moving.free, moving.λ, limits, worst)
+    after = put_back(moving, found, λ, free)
+    finish(system, state, work, speeds.before, rows, gap, free, after, λ, h, limits)
+    return key, spread(rows, λ, len(key), state.x.shape[1]), λ
+
+
+@compiled_apart
+def prepare(contacts, held, speeds, known, pushed, h, share, limits):
+    """The problem of a flight: its rows, their gaps, the free velocities (n, k), the contacts' keys, and the
+    λ that the forces before would make in h.
+    """
+    closing = closing_speeds(contacts, h, limits.closed)
+    rows = join(contact_rows(contacts, closing, speeds.before.shape[1]), held)
+    key = keys(contacts, limits.bodies)
+    λ = gather(rows, look_up(known, pushed, key), held.force)
+    for r in range(len(λ)):
+        λ[r] *= h
+    return rows, gaps(contacts, held), part_way(speeds.before, speeds.free, share), key, λ
+
+
+@compiled_apart
+def finish(system, state, work, before, rows, gap, free, after, λ, h, limits):
+    """Rest, and the new positions and velocities, once u⁺ = ``after`` is known."""
+    label, room = label_islands(rows.bodies, len(after)), np.zeros((5, len(after)))
+    let_rest(label, rows, λ, before, free, after, REST * limits.tolerance, room[:3])
+    used = np.empty_like(after)
+    choose_velocities(rows, label, gap, before, after, λ, h, limits.closed, used, room[3:])
+    move(system, used, after, h, state, work)
+
+
+@compiled(door=False)
+def gaps(contacts, held):
+    """The gaps of the contacts (m,), and then of the joints' limits."""
+    m = contacts.count[0]
+    gap = np.empty(m + len(held.gap))
+    for q in range(m):
+        gap[q] = contacts.gap[q]
+    for q in range(len(held.gap)):
+        gap[m + q] = held.gap[q]
+    return gap
+
+
+@compiled(door=False)
+def closing_speeds(contacts, h, closed):
+    """How fast each contact may close, m/s (m,): gap/h; 0 where a gap counts as none, lest rest creep."""
+    target = np.empty(contacts.count[0])
+    for q in range(len(target)):
+        target[q] = contacts.gap[q] / h if contacts.gap[q] > closed else 0.0
+    return target
+
+
+@compiled(door=False)
+def part_way(before, free, share):
+    """The free velocities (n, k) after this share of the time for which they are given."""
+    between = np.empty_like(before)
+    for i in range(len(before)):
+        for a in range(before.shape[1]):
+            between[i, a] = before[i, a] + (free[i, a] - before[i, a]) * share
+    return between
+
+
+@lean
 def gather_velocities(state, u):
     """u (n, k): v and ω of each body side by side; 0 for the turning of points."""
     d = state.x.shape[1]
-    u[:] = 0
     for i in range(len(u)):
         for a in range(d):
             u[i, a] = state.v[i, a]
+        for a in range(d, u.shape[1]):
+            u[i, a] = 0.0
         if i < len(state.ω):
             for a in range(state.ω.shape[1]):
                 u[i, d + a] = state.ω[i, a]
 
 
-@compiled
+@lean
 def scatter_velocities(system, u, state):
     """v, ω and L from u (n, k)."""
     d = state.x.shape[1]
@@ -47,15 +155,15 @@ def scatter_velocities(system, u, state):
                 store(state.L, i, rotate(q, times(vector(system.inertia, i), rotate_back(q, ω))))
 
 
-@compiled
-def choose_velocities(rows, label, gap, before, after, λ, h, slack, used):
+@inner
+def choose_velocities(rows, label, gap, before, after, λ, h, slack, used, room):
     """Into used (n, k): with which velocity each body moves. gap (m,), m, of each contact; slack, m: a
-    gap that counts as none.
+    gap that counts as none; room (2, n), zeros.
 
     Returns whether all move with the mean.
     """
     n, k = before.shape
-    work, lands = np.zeros(n), np.zeros(n, np.bool_)
+    work, lands = room[0], room[1]
     for q in range(len(gap)):
         first = rows.block[q]
         i, j = rows.bodies[first, 0], rows.bodies[first, 1]
@@ -69,31 +177,33 @@ def choose_velocities(rows, label, gap, before, after, λ, h, slack, used):
                         twice += rows.J[r, side, a] * (before[b, a] + after[b, a])
             work[island] += 0.5 * λ[r] * twice
             if r == first and gap[q] + 0.5 * h * twice < -slack:
-                lands[island] = True
+                lands[island] = 1.0
     mean = True
     for i in range(n):
         island = label[i]
-        if lands[island] or work[island] > 0:
+        if lands[island] > 0 or work[island] > 0:
             mean = False
-            used[i] = after[i]
+            for a in range(k):
+                used[i, a] = after[i, a]
         else:
             for a in range(k):
                 used[i, a] = 0.5 * (before[i, a] + after[i, a])
     return mean
 
 
-@compiled
-def let_rest(label, rows, λ, before, free, after, tolerance):
+@inner
+def let_rest(label, rows, λ, before, free, after, tolerance, room):
     """Set to 0 what the contacts hold still: islands as slow as the solver's tolerance, before and after.
 
-    Their speed is measured by what the forces would make of it in this step. Returns how many bodies rest.
+    Their speed is measured by what the forces would make of it in this step. room (3, n), zeros. Returns how
+    many bodies rest.
     """
     n, k = before.shape
-    push, speed, held = np.zeros(n), np.zeros(n), np.zeros(n, np.bool_)
+    push, speed, held = room[0], room[1], room[2]
     for r in range(len(λ)):
         for side in range(2):
             if λ[r] != 0 and rows.bodies[r, side] >= 0:
-                held[label[rows.bodies[r, side]]] = True
+                held[label[rows.bodies[r, side]]] = 1.0
     for i in range(n):
         island = label[i]
         for a in range(k):
@@ -102,13 +212,14 @@ def let_rest(label, rows, λ, before, free, after, tolerance):
     resting = 0
     for i in range(n):
         island = label[i]
-        if held[island] and speed[island] <= tolerance * push[island]:
-            after[i] = 0.0
+        if held[island] > 0 and speed[island] <= tolerance * push[island]:
+            for a in range(k):
+                after[i, a] = 0.0
             resting += 1
     return resting
 
 
-@compiled
+@lean
 def move(system, used, after, h, state, work):
     """Positions and attitudes with the velocities ``used``; then the velocities are those ``after``.
 
@@ -116,13 +227,15 @@ def move(system, used, after, h, state, work):
     is kept, so that ω follows the axes.
     """
     scatter_velocities(system, after, state)
-    L = state.L.copy()
+    for i in range(len(state.L)):
+        for a in range(3):
+            work.L[i, a] = state.L[i, a]
     scatter_velocities(system, used, state)
     drift_by_midpoint(system, h, state, work)
-    scatter_velocities_kept(system, after, L, state)
+    scatter_velocities_kept(system, after, work.L, state)
 
 
-@compiled
+@inner
 def scatter_velocities_kept(system, after, L, state):
     """v (and ω in the plane) from ``after``; in space ω from the momentum L, at the new attitude."""
     d = state.x.shape[1]
@@ -134,5 +247,6 @@ def scatter_velocities_kept(system, after, L, state):
         if planar(state):
             state.ω[i, 0] = after[i, d]
         else:
-            state.L[i] = L[i]
+            for a in range(3):
+                state.L[i, a] = L[i, a]
             finish_free_rotation(state, i, quaternion(state.q, i), vector(system.inertia, i))

@@ -8,10 +8,26 @@ contacts.
 Slides S6, S12; lectures/05_contact.md.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
+from ..compiled import compiled
+from ..lcp.augmented import ContactRows
 from ..mechanism import bounded_rows, mechanism_size, rigid_rows
 from ..rows import Rows, fill_rows, make_jacobian
+
+
+class HeldRows(NamedTuple):
+    """m rows of joints, as a flight takes them."""
+
+    bodies: np.ndarray  # (m, 2)
+    J: np.ndarray  # (m, 2, k)
+    c: np.ndarray  # (m,): w = J u + c
+    lower: np.ndarray  # (m,) bounds of λ
+    upper: np.ndarray  # (m,)
+    gap: np.ndarray  # (m,) what is left of a limit; inf for what has none
+    force: np.ndarray  # (m,) of the step before
 
 
 class Held:
@@ -77,20 +93,39 @@ class Held:
         """How far a joint is from closed, or a limit passed, at the most."""
         return max(np.abs(self.φ[self.rigid]).max(initial=0.0), (-self.φ[self.limit]).max(initial=0.0))
 
-    def joined(self, contact, c, lower, upper):
-        """The fields of ContactRows: those of the contacts (see ``contacts.contact_rows``), and then
-        these.
-        """
-        if not len(self):
-            return contact
-        bodies, J, c0, block, μ, lower0, upper0 = contact
-        more = block[-1] + 1 + np.arange(len(self))
-        return (
-            np.concatenate([bodies, self.rows.bodies]),
-            np.concatenate([J, self.J]),
-            np.concatenate([c0, c]),
-            np.concatenate([block, more]),
-            np.concatenate([μ, np.full(len(self), -1.0)]),
-            np.concatenate([lower0, lower]),
-            np.concatenate([upper0, upper]),
-        )
+    def rows_with(self, c, lower, upper):
+        """These rows as ``HeldRows``, with their forces of the step before."""
+        return HeldRows(self.rows.bodies, self.J, c, lower, upper, self.gap(), self.force)
+
+
+@compiled
+def join(contact, held):
+    """ContactRows: those of the contacts (what ``contacts.contact_rows`` returns), then those held."""
+    bodies, J, c, block, μ, lower, upper = contact
+    r, m, more = len(c), len(μ), len(held.c)
+    if more == 0:
+        return ContactRows(bodies, J, c, block, μ, lower, upper)
+    both = ContactRows(
+        np.empty((r + more, 2), np.int64),
+        np.empty((r + more, 2, J.shape[2])),
+        np.empty(r + more),
+        np.empty(m + more + 1, np.int64),
+        np.empty(m + more),
+        np.empty(r + more),
+        np.empty(r + more),
+    )
+    for k in range(r + more):
+        own = k < r
+        q = k if own else k - r
+        both.c[k] = c[q] if own else held.c[q]
+        both.lower[k] = lower[q] if own else held.lower[q]
+        both.upper[k] = upper[q] if own else held.upper[q]
+        for side in range(2):
+            both.bodies[k, side] = bodies[q, side] if own else held.bodies[q, side]
+            for a in range(J.shape[2]):
+                both.J[k, side, a] = J[q, side, a] if own else held.J[q, side, a]
+    for q in range(m + more):
+        both.block[q] = block[q] if q < m else r + q - m
+        both.μ[q] = μ[q] if q < m else -1.0
+    both.block[m + more] = r + more
+    return both

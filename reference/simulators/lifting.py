@@ -10,10 +10,12 @@ Slides S12, S13; lectures/05_contact.md.
 
 import numpy as np
 
-from ..compiled import compiled
-from ..contacts import label_islands
+from ..collision import ContactArrays
+from ..compiled import compiled, compiled_apart, inner
+from ..contacts import contact_rows, label_islands
 from ..correction import displace
 from .flight import scatter_velocities
+from .held import join
 
 DEEP = 10  # times the gap that counts as none
 MOST_LIFTS = 20
@@ -26,14 +28,10 @@ def lift(sim, contacts, h):
     """
     if depth(sim, contacts) <= DEEP * sim.closed:
         return contacts
-    label, height = np.arange(len(sim.before)), sim.state.x.copy()
+    label, start = np.arange(len(sim.before)), sim.state.x.copy()
     for _ in range(MOST_LIFTS):
-        frictionless = contacts._replace(friction=np.zeros(len(contacts.gap)))
-        rows = sim.rows(frictionless, contacts.gap, sim.held.to_lift())
-        δ = sim.solve(rows, np.zeros_like(sim.before), np.zeros(len(rows.c)))
-        label = np.minimum(label, label_islands(rows.bodies, len(δ)))
-        d = sim.d
-        displace(sim.state, δ[:, :d], δ[: len(sim.state.q), d:])
+        held = sim.held.rows_with(*sim.held.to_lift())
+        sim.raise_apart(sim.state, contacts, held, sim.speeds, label, sim.limits, sim.worst)
         sim.fill(sim.now, h)
         contacts = sim.find(h)
         if depth(sim, contacts) <= sim.closed:
@@ -41,9 +39,7 @@ def lift(sim, contacts, h):
     if sim.held.worst() > TORN * sim.held.size:
         sim.open = sim.held.worst()
         sim.state.y[:] = np.nan  # which ends the run: no step may be built on joints that don't close
-    gain = -(sim.system.mass[:, None] * sim.system.gravity * (sim.state.x - height)).sum(axis=1)
-    sim.lifted += pay(label, gain, sim.M, sim.before)
-    scatter_velocities(sim.system, sim.before, sim.state)
+    sim.lifted[0] += slow_down(sim.system, sim.state, start, label, sim.speeds)
     sim.fill(sim.now, h)
     return contacts
 
@@ -54,12 +50,74 @@ def depth(sim, contacts):
 
 
 @compiled
-def pay(label, gain, M, u):
+def deepest(contacts):
+    """How deep in each other any two bodies are at the most, m."""
+    depth = 0.0
+    for q in range(contacts.count[0]):
+        depth = max(depth, -contacts.gap[q])
+    return depth
+
+
+@compiled_apart
+def raise_apart(solve, state, contacts, held, speeds, label, limits, worst):
+    """One move that brings all gaps, as they are to first order, to 0 at least; friction has no part in it.
+
+    label (n,): the islands of the moves before, and with those of this one.
+    """
+    rows, δ, λ = upright_rows(contacts, held, speeds.before)
+    δ = solve(rows, speeds.M, δ, λ, limits, worst)
+    join_islands(label, rows.bodies)
+    displace_by(state, δ)
+
+
+@compiled_apart
+def upright_rows(contacts, held, u):
+    """The rows of the contacts' normals, and those held; and zeros for u (n, k) and λ."""
+    c, m = contacts, contacts.count[0]
+    frictionless = ContactArrays(
+        c.count, c.bodies, c.slot, c.id, c.point, c.frame, c.gap, c.arm, np.zeros(m), c.restitution
+    )
+    rows = join(contact_rows(frictionless, contacts.gap[:m], u.shape[1]), held)
+    return rows, np.zeros_like(u), np.zeros(len(rows.c))
+
+
+@compiled
+def join_islands(label, bodies):
+    """Each body's label becomes the least that it has ever had."""
+    now = label_islands(bodies, len(label))
+    for i in range(len(label)):
+        label[i] = min(label[i], now[i])
+
+
+@compiled
+def displace_by(state, δ):
+    """Move all bodies by δ (n, k), lengths and angles."""
+    d, turning = state.x.shape[1], np.zeros((len(state.q), state.ω.shape[1]))
+    for i in range(len(turning)):
+        for a in range(turning.shape[1]):
+            turning[i, a] = δ[i, d + a]
+    displace(state, δ[:, :d], turning)
+
+
+@compiled_apart
+def slow_down(system, state, start, label, speeds):
+    """Take the energy that lifting from start (n, d) gave from the speeds; returns what is not paid, J."""
+    gain = np.zeros(len(start))
+    for i in range(len(start)):
+        for a in range(start.shape[1]):
+            gain[i] -= system.mass[i] * system.gravity[a] * (state.x[i, a] - start[i, a])
+    unpaid = pay(label, gain, speeds.M, speeds.before, np.zeros((2, len(start))))
+    scatter_velocities(system, speeds.before, state)
+    return unpaid
+
+
+@inner
+def pay(label, gain, M, u, room):
     """Slow each island's bodies until they have lost the energy that lifting gave; returns what could not
-    be paid, J.
+    be paid, J. room (2, n), zeros.
     """
     n, k = u.shape
-    gained, has = np.zeros(n), np.zeros(n)
+    gained, has = room[0], room[1]
     for i in range(n):
         gained[label[i]] += gain[i]
         for a in range(k):

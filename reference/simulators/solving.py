@@ -13,6 +13,7 @@ Slides S12–S14, S17; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J
 
 import numpy as np
 
+from ..compiled import compiled
 from ..factored import Factored
 from ..lcp import LCP, SOLVERS, ConeProblem
 from ..lcp.cone_newton import ContactRows, cone_newton_kernel
@@ -29,6 +30,16 @@ class Unsolvable(Exception):
     def __init__(self, status, reason):
         super().__init__(reason)
         self.status = status
+
+
+@compiled
+def newton_in_cones(rows, M, free, λ, limits, worst):
+    """``StepSolver`` by ``cone_newton``, for ``flight``; limits: its tolerance and iterations."""
+    after, passes, error = cone_newton_kernel(
+        rows, M, free, np.zeros(len(rows.μ)), True, λ, limits.tolerance, limits.iterations, np.zeros(0)
+    )
+    worst[0], worst[1] = max(worst[0], passes), max(worst[1], error)
+    return after
 
 
 class StepSolver:

@@ -19,9 +19,9 @@ class Touched:
 
     def add(self, contacts, impulse):
         """Keep the contacts (``ContactArrays``) of a flight or an impact, with the impulses (m, d) in
-        their frames, N s.
+        their frames, N s. The arrays are copied: the next search for contacts writes over them.
         """
-        self.last = contacts, impulse
+        self.last = contacts._replace(**{name: getattr(contacts, name).copy() for name in _FIELDS}), impulse
         self.notes.append(self.last)
 
     def repeat(self):

@@ -11,46 +11,24 @@ Slides S9–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Nume
 
 import numpy as np
 
-from ..bodies import solve_mass
 from ..collision import find_contacts, make_collider
 from ..collision.find import make_contacts
-from ..compiled import bind, compiled
-from ..contacts import contact_rows, fill_masses, keys, label_islands, look_up, part, spread, tangents
+from ..compiled import bind
+from ..contacts import contact_rows, gather, keys, look_up, part, spread
 from ..forces import external_force, with_user_forces
-from ..integrators import make_work
-from ..lcp.cone_newton import ContactRows
 from ..trajectory import BodyState
 from .bouncing import MOST_IMPACTS, hop, strike
-from .flight import choose_velocities, gather_velocities, let_rest, move
-from .held import Held
+from .coasting import coast, reach
+from .flight import Limits, Turning, flight
+from .free import fill_free, make_speeds
+from .held import Held, join
 from .impacts import IMPACTS
-from .lifting import lift
+from .lifting import lift, raise_apart
 from .smooth import all_finite
-from .solving import StepSolver, Unsolvable
+from .solving import StepSolver, Unsolvable, newton_in_cones
 from .touched import Touched
 
-
-@compiled
-def fill_free(force, system, t, h, state, M, before, f, τ, free):
-    """The velocities after h without contact: u + Δt M⁻¹ f_e, into free (n, k); M (n, k, k) and u,
-    before, are filled too.
-    """
-    fill_masses(system, state, M)
-    gather_velocities(state, before)
-    force(system, t, state, f, τ)
-    solve_mass(system, state.q, f, τ)
-    d = f.shape[1]
-    free[:] = before
-    for i in range(len(f)):
-        for a in range(d):
-            free[i, a] += h * f[i, a]
-        if i < len(τ):
-            for a in range(τ.shape[1]):
-                free[i, d + a] += h * τ[i, a]
-
-
 CLOSED = 1e-9  # of the smallest body's size: a gap that counts as none
-REST = 100  # times the solver's tolerance: so slow is at rest, where contacts hold it
 
 
 class VelocityLCP:
@@ -59,6 +37,8 @@ class VelocityLCP:
     While a step is under way: M, before and free are the mass matrices, the velocities u now and those
     that there would be after ``filled`` s without contact; ``now`` is the time of the clock.
     """
+
+    coasts = True  # whether ``coast`` may take the steps in which nothing special happens
 
     def __init__(self, scene, bodies, settings):
         self.bodies, self.system, self.state = bodies, bodies.system, bodies.state()
@@ -74,18 +54,22 @@ class VelocityLCP:
         self.fill_free = bind(fill_free, force)
         n, self.d = self.state.x.shape
         self.k = 6 if self.d == 3 else 3
-        self.M, self.before, self.free = (
-            np.zeros((n, self.k, self.k)),
-            np.zeros((n, self.k)),
-            np.zeros((n, self.k)),
-        )
-        self.f, self.τ = np.zeros((n, self.d)), np.zeros_like(self.state.ω)
-        self.work = make_work(n, len(self.state.q), self.d, 30, 1e-15)
+        self.speeds = make_speeds(n, self.d, self.k, self.state.ω)
+        self.M, self.before, self.free, _, _ = self.speeds
+        self.work = Turning(30, 1e-15, np.zeros(2), np.zeros_like(self.state.L))
         radius = self.collider.solids.form.radius if self.collider else np.zeros(0)
         self.closed = CLOSED * float(radius[np.isfinite(radius)].min(initial=self.held.size))
         self.key, self.force = np.zeros(0, dtype=np.int64), np.zeros((0, self.d))  # of the contacts before
-        self.now, self.filled, self.still, self.lifted = 0.0, 0.0, False, 0.0
+        self.now, self.filled, self.still, self.lifted = 0.0, 0.0, False, np.zeros(1)
         self.touched, self.worst, self.open = Touched(self.d), self.solver.worst, 0.0
+        self.limits = Limits(*self.solver.limits, self.closed, len(bodies.mass), self.warm)
+        compiled_whole = self.solver.name == "cone_newton"
+        solve = newton_in_cones if compiled_whole else self.solve_in_flight
+        self.flight, self.raise_apart = bind(flight, solve), bind(raise_apart, solve)
+        self.coast = None  # what takes ordinary steps by itself
+        simple = not len(self.held) and not scene.user_forces
+        if self.coasts and compiled_whole and self.collider and simple:
+            self.coast = bind(coast, self.fill_free, self.collider.detect, self.flight, self.raise_apart)
         self.begin()
 
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
@@ -95,38 +79,64 @@ class VelocityLCP:
         ``smooth.run``. Returns how many steps were done: fewer than ``steps`` if the next would not have
         been finite.
         """
-        row = 0
-        for done in range(steps):
-            kept = self.keep()
-            try:
-                self.step(origin + (first + done) * h, h)
-            except Unsolvable as why:
-                self.ended = why.status, str(why)
-            if self.ended or not all_finite(self.state.y):
-                self.restore(kept)
+        row, done, noted = 0, 0, record is not None and self.recording
+        while done < steps:
+            due = steps if record is None else min(steps, every * (row + 1))
+            new = self.go(origin + (first + done) * h, h, 1 if noted else due - done)
+            if not new:
                 return done
-            if record is not None and ((done + 1) % every == 0 or done + 1 == steps):
+            done += new
+            if record is not None and done == due:
                 record[row], solves[row] = self.state.y, self.worst
                 self.worst[:], row = 0, row + 1
-                if self.recording:
+                if noted:
                     self.touched.close(self.within(2 * self.closed), self.closed)
-            if record is None or not self.recording:
+            if not noted:
                 self.touched.back_to(0)
         return steps
 
+    def go(self, t, h, steps):
+        """Up to so many steps from the time t; returns how many are done: 0, if the next is not finite."""
+        if self.still:  # the same state again, and so the same forces
+            for _ in range(steps if self.recording else 0):
+                self.touched.repeat()
+            return steps
+        done = self.coast_on(t, h, steps) if self.coast else 0
+        if done:
+            return done
+        kept = self.keep()
+        try:
+            self.step(t, h)
+        except Unsolvable as why:
+            self.ended = why.status, str(why)
+        if not self.ended and all_finite(self.state.y):
+            return 1
+        self.restore(kept)
+        return 0
+
+    def coast_on(self, t, h, steps):
+        """Up to so many ordinary steps, in which nothing strikes or overlaps; returns how many are done."""
+        contacts = self.collider.contacts
+        done, self.still, pushed, impulse = self.coast(
+            self.system, self.state, self.work, self.speeds, self.collider.arrays, contacts,
+            self.held.rows_with(*self.held.in_flight(h)), (self.key, self.force), t, h, steps, self.limits,
+            self.worst, self.lifted, self.timeless,
+        )  # fmt: skip
+        self.key, self.force = pushed
+        if done and self.recording:
+            self.touched.add(part(contacts, slice(0, len(impulse))), impulse)
+        return done
+
     def step(self, t, h):
         """One step of S9, from impact to impact."""
-        if self.still:  # the same state again, and so the same forces
-            self.touched.repeat()
-            return
         start, left, impacts = self.state.y.copy(), h, 0
         while left > 0:
             self.fill(t + h - left, left)
             contacts = lift(self, self.find(left), left)
-            bouncing = contacts.restitution.any() and impacts < MOST_IMPACTS
-            if bouncing and strike(self, contacts, h):
+            meeting = impacts < MOST_IMPACTS
+            if meeting and strike(self, contacts, h):
                 self.fill(t + h - left, left)
-            done = hop(self, contacts, left) if bouncing else self.fly(contacts, left)
+            done = hop(self, contacts, h, left) if meeting else self.fly(contacts, left)
             left, impacts = left - done if done < left else 0.0, impacts + 1
         if len(self.held):  # joints are closed at once: what is recorded is a state that they allow
             self.fill(t + h, h)
@@ -136,13 +146,12 @@ class VelocityLCP:
     def fill(self, t, h):
         """M, u, and the velocities that there would be after h without contact."""
         self.now, self.filled = t, h
-        self.fill_free(self.system, t, h, self.state, self.M, self.before, self.f, self.τ, self.free)
+        self.fill_free(self.system, t, h, self.state, self.speeds)
         self.held.fill(self.state)
 
     def find(self, h):
         """All contacts that could matter within h."""
-        hastening = np.abs(self.free - self.before).max(initial=0.0)
-        return self.within(2 * h * hastening + 100 * self.closed, h)
+        return self.within(reach(self.speeds, h, self.closed), h)
 
     def within(self, margin, h=0.0):
         """The contacts with gaps up to margin, and those that speeds could close within h besides."""
@@ -153,40 +162,42 @@ class VelocityLCP:
 
     def rows(self, contacts, target, held):
         """The contacts' rows, with w_n ≥ −target, and those of the joints with (c, lower, upper) = held."""
-        return ContactRows(*self.held.joined(contact_rows(contacts, target, self.k), *held))
+        return join(contact_rows(contacts, target, self.k), self.held.rows_with(*held))
 
     def solve(self, rows, free, λ):
         """The velocities u⁺; λ in place."""
         return self.solver(rows, self.M, free, λ, time=self.now)
 
+    def solve_in_flight(self, rows, M, free, λ, limits, worst):
+        """``solve``, for ``flight``, which leaves out what rests."""
+        return self.solver(rows, M, free, λ, time=self.now)
+
     def fly(self, contacts, h):
         """Move on by h, without rebound. Returns h."""
-        gap = np.concatenate([contacts.gap, self.held.gap()])
-        rows = self.rows(contacts, np.maximum(contacts.gap, 0.0) / h, self.held.in_flight(h))
-        free = self.before + (self.free - self.before) * (h / self.filled)
-        λ = h * self.pushed_before(contacts, rows)
-        after = self.solve(rows, free, λ)
-        label = label_islands(rows.bodies, len(after))
-        let_rest(label, rows, λ, self.before, free, after, REST * self.solver.limits[0])
-        used = np.empty_like(after)
-        choose_velocities(rows, label, gap, self.before, after, λ, h, self.closed, used)
-        move(self.system, used, after, h, self.state, self.work)
-        self.keep_impulses(contacts, rows, λ, h)
+        held = self.held.rows_with(*self.held.in_flight(h))
+        key, impulse, λ = self.flight(
+            self.system, self.state, self.work, self.speeds, contacts, held, self.key, self.force, h,
+            h / self.filled, self.limits, self.worst,
+        )  # fmt: skip
+        self.note_impulses(contacts, key, impulse, λ, h)
         return h
 
     def pushed_before(self, contacts, rows):
         """The forces (r,) of the step before on these rows; 0 where they are new, or without warm start."""
-        pushed = look_up(self.key, self.force, keys(contacts, len(self.bodies.mass)))
-        return np.concatenate([pushed[tangents(rows, len(contacts.gap), self.d)], self.held.force])
+        pushed = look_up(self.key, self.force, keys(contacts, self.limits.bodies))
+        return gather(rows, pushed, self.held.force)
 
     def keep_impulses(self, contacts, rows, λ, h):
         """For the record, and for the next step to begin with."""
         m = len(contacts.gap)
-        impulse = spread(rows, λ, m, self.d)
+        self.note_impulses(contacts, keys(contacts, self.limits.bodies), spread(rows, λ, m, self.d), λ, h)
+
+    def note_impulses(self, contacts, key, impulse, λ, h):
+        """The same, of contacts with these keys (m,) and impulses (m, d); λ (r,): of all rows."""
         self.touched.add(contacts, impulse)
         if self.warm:
-            self.key, self.force = keys(contacts, len(self.bodies.mass)), impulse / h
-            self.held.force = λ[rows.block[m] :] / h
+            self.key, self.force = key, impulse / h
+            self.held.force = λ[len(λ) - len(self.held) :] / h
 
     def keep(self):
         """What ``restore`` needs to go back to now."""
@@ -211,7 +222,7 @@ class VelocityLCP:
         if len(self.held):
             self.fill(0.0, 1.0)
             lift(self, self.within(0.0), 1.0)
-            self.lifted = 0.0
+            self.lifted[0] = 0.0
             if self.open:
                 raise ValueError(
                     f"joints must be able to hold at the same time, but one stays open by {self.open:.3g} "
@@ -232,7 +243,8 @@ class VelocityLCP:
 
     def note(self):
         """What must be said of the contacts, or ""."""
-        lifted = f"lifting overlaps apart has added {self.lifted:.3g} J" if self.lifted > 0 else ""
+        gain = self.lifted[0]
+        lifted = f"lifting overlaps apart has added {gain:.3g} J" if gain > 0 else ""
         return "; ".join(part for part in (self.solver.told(), lifted) if part)
 
     def joint_forces(self, times, records):

@@ -1,6 +1,7 @@
 """The shell: exit codes, odd cells, cells that hang or kill; and the same score as in a notebook."""
 
 import ast
+import inspect
 import json
 import re
 import subprocess
@@ -14,7 +15,7 @@ import exercises
 from exercises.grader import shell
 from exercises.grader.cells import Namespace, Unreadable, read_cells
 from exercises.grader.student import StudentProcess
-from tests.exercises.exercise_support import UNITS
+from tests.exercises.exercise_support import UNITS, silent
 
 UNIT = UNITS[0]
 SOLUTION = UNIT.solutions[0]
@@ -101,6 +102,21 @@ def test_our_own_fault_is_2(monkeypatch, capsys):
         ("import asyncio\nawait asyncio.sleep(0)\nx = 8", "x", 8),
         ("display(1)\nget_ipython().run_line_magic('load_ext', 'autoreload')\nx = 9", "x", 9),
         ("x = 10;", "x", 10),
+        ("%%time\nimport asyncio\nawait asyncio.sleep(0)\nx = 11", "x", 11),
+        ("%%capture out --no-stderr\n%matplotlib inline\nx = 12", "x", 12),
+        ("%time x = await __import__('asyncio').sleep(0, 13)", "x", 13),
+        ("import math\nmath.sin?\nmath??\n*.pi*?\nx = 14", "x", 14),
+        ("x = %pwd", "x", None),
+        ("!!ls\n%cd /\n%env A=1\n%who\nx = 15", "x", 15),
+        ("if True:\n    %matplotlib inline\n    files = !ls *.py\n    x = len(files) + 16", "x", 16),
+        ("async def g():\n    yield 17\nx = [i async for i in g()][0]", "x", 17),
+        ("y = %timeit -o -n1 -r1 1 + 1\ny.best\nx = 18", "x", 18),
+        ("get_ipython().run_cell('%time x = 19')", "x", 19),
+        ("get_ipython().run_cell_magic('time', '', 'x = 20')", "x", 20),
+        (">>> x = 22\n>>> y = 4", "x", 22),
+        ("  x = 23\n  y = 5", "x", 23),
+        ('x = """\n%time 1\n!ls\n"""', "x", "\n%time 1\n!ls\n"),
+        ("%%javascript\nalert(1)", "x", None),
         ("", "x", None),
     ],
 )
@@ -232,6 +248,21 @@ def test_notebook_and_shell_give_the_same_score(unit, kind, tmp_path, monkeypatc
         assert record["earned"] == (0 if kind == "starter" else record["possible"])
     else:
         assert set(record["passed"]) - in_notebook == set(unit.mistakes[-1].loses)
+
+
+@each_unit
+def test_pictures_are_drawn_for_students_alone(unit):
+    """Where a class is graded, show_… calls nothing; other helpers, and those of a notebook, stay."""
+    given = exercises.part(unit.slug, "given")
+    with silent():
+        silenced, _ = exercises.load(unit.slug)
+    pictures = [name for name in vars(given) if name.startswith("show_")]
+    for name in pictures:
+        assert getattr(silenced, name)(None, None, None) is None
+        assert exercises.load(unit.slug)[0] is given
+        with pytest.raises(TypeError):  # None cannot be called
+            getattr(given, name)(*[None] * len(inspect.signature(getattr(given, name)).parameters))
+    assert all(vars(silenced)[name] is value for name, value in vars(given).items() if name not in pictures)
 
 
 def test_check_in_a_namespace(capsys):

@@ -13,7 +13,7 @@ from exercises.grader.sandbox import Limits, Sandbox
 UNIT = "02_equation_of_motion"
 FOLDER = Path(__file__).resolve().parent
 SOLUTION = exercises.FOLDER / UNIT / "solutions" / "solution_a.py"
-QUICK = Limits()
+QUICK, SHORT = Limits(), Limits(cell=1.0, question=1.5, total=6.0)
 
 
 @dataclass(frozen=True)

@@ -260,7 +260,7 @@ def test_a_group_of_copies_is_listed_however_large():
 
 @pytest.mark.parametrize("cells", [["x = ("], ["\x00"], ["'''"], ["x" * 10**6], ["(" * 5000], ["\ud800"], []])
 def test_code_that_is_none_has_numbers_all_the_same(cells):
-    answer = of_cells(cells, {"starter": [], "notebook": "{"})
+    answer = of_cells(cells, b"{", [])
     assert isinstance(answer["numbers"], list) and answer["hints"] == []
 
 
@@ -275,9 +275,9 @@ def test_nbgraders_metadata_earn_nothing_and_are_shown(tmp_path, monkeypatch):
 
 def test_nbgraders_metadata_are_hints():
     cells = {"cells": [{"metadata": {"nbgrader": {"grade": True, "grade_id": "plate", "points": 1000}}}, {}]}
-    assert of_cells([], {"starter": [], "notebook": json.dumps(cells)})["hints"] == ["plate"]
+    assert of_cells([], json.dumps(cells).encode(), [])["hints"] == ["plate"]
     for odd in ('{"cells": 5}', '{"cells": [5]}', '{"cells": [{"metadata": 3}]}', "[" * 10**5):
-        assert of_cells([], {"starter": [], "notebook": odd})["hints"] == []
+        assert of_cells([], odd.encode(), [])["hints"] == []
 
 
 # --- other systems ------------------------------------------------------------------------------------------

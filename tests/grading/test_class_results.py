@@ -19,9 +19,9 @@ SLOW_RUN = """
 import sys, time
 from tests.grading import class_support as support
 class Slow(support.PlainBox):
-    def load(self, data):
+    def load(self, data, *task):
         time.sleep(0.3)
-        super().load(data)
+        super().load(data, *task)
 support.workers.open_box = lambda unit, unsafe: Slow(unit)
 support.workers.probe = lambda: ("bubblewrap", "")
 support.grade(sys.argv[1])

@@ -111,8 +111,8 @@ def test_saved_cases_outlive_the_generators(tmp_path, monkeypatch):
 class OnlyVisible(PlainBox):
     """Right on visible cases, wrong on all others: as one who has copied the visible answers."""
 
-    def load(self, data):
-        super().load(data)
+    def load(self, data, *task):
+        super().load(data, *task)
         self.known = {
             json.dumps([call.function, [encode(argument) for argument in call.arguments]])
             for check in UNIT.checks
@@ -202,8 +202,8 @@ def test_a_judge_that_raises_is_our_failure():
 
 
 class Refusing(PlainBox):
-    def load(self, data):
-        super().load(data)
+    def load(self, data, *task):
+        super().load(data, *task)
         self.status, self.reason = "rejected", "the worker ended"
 
 

@@ -10,11 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from exercises.grader.sandbox import Limits, box, close, isolation, nursery
+from exercises.grader.sandbox import box, close, isolation, nursery
 from tests.grading.corpus_support import (
     HONEST,
     HOSTILE,
     QUICK,
+    SHORT,
     SOLUTION,
     earned,
     grade,
@@ -24,7 +25,6 @@ from tests.grading.corpus_support import (
 )
 
 pytestmark = pytest.mark.xdist_group("sandbox")  # in one process, with one parent of each kind
-SHORT = Limits(cell=1.0, question=1.5, total=6.0)
 BEST = "best"  # whichever kind is the best that works here
 KINDS = [kind for kind in nursery.KINDS if kind != "none"]
 DAILY = {
@@ -75,7 +75,7 @@ def processes_of_workers():
         above.setdefault(int(status["PPid"]), []).append(int(folder.name))
         if user is not None and int(status["Uid"].split()[0]) == user:
             found.append(int(folder.name))
-    for (kind, _), home in nursery._current.items():
+    for (kind, *_), home in nursery._current.items():
         below = above.get(home.process.pid, [])
         found += [pid for parent in below for pid in above.get(parent, [])] if kind == "bubblewrap" else below
     return found

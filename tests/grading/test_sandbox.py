@@ -31,7 +31,7 @@ from exercises.grader.sandbox import (
 from exercises.grader.sandbox.isolation import send_canary, trouble
 from exercises.grader.sandbox.survey import INTERPRETER, ROOT, survey
 from exercises.grader.sandbox.wire import Gone, Wire
-from tests.grading.corpus_support import SOLUTION, UNIT, earned, grade, notebook_of, read_cells
+from tests.grading.corpus_support import SOLUTION, UNIT, checks, earned, grade, notebook_of, read_cells
 
 pytestmark = pytest.mark.xdist_group("sandbox")  # in one process, with one parent of each kind
 KINDS = [kind for kind in nursery.KINDS if kind != "none"]
@@ -52,7 +52,9 @@ def _close_at_the_end():
 def test_the_canary_does_not_get_out(kind):
     if trouble(kind) != "ok":
         pytest.skip(f"{kind} does not work here: {trouble(kind)}")
-    assert send_canary(nursery.nursery(kind)) == []
+    for tools in (False, True):
+        assert send_canary(nursery.nursery(kind, tools)) == []
+    nursery.forget(kind, True)
 
 
 def test_without_isolation_the_canary_gets_out():
@@ -255,6 +257,33 @@ def test_a_notebook_in_another_dress_is_the_same():
     twice = '{"cells": [],' + book.removeprefix("{")
     box, results = grade(b"\xef\xbb\xbf" + twice.replace("\n", "\r\n").encode())
     assert (box.status, earned(results), box.troubles) == ("ok", 100, [])
+
+
+def test_a_notebook_of_format_3_is_read():
+    """Sheets of cells, whose text is their input."""
+    cells = [{"cell_type": "code", "language": "python", "input": cell.splitlines(True)} for cell in RIGHT]
+    sheets = [{"cells": cells[:3]}, {"cells": [{"cell_type": "markdown", "source": ""}, *cells[3:]]}]
+    book = json.dumps({"nbformat": 3, "nbformat_minor": 0, "metadata": {"name": ""}, "worksheets": sheets})
+    box, results = grade(book.encode())
+    assert (box.status, earned(results), box.troubles) == ("ok", 100, [])
+
+
+def test_how_a_process_ends_tells_nothing_of_hidden_cases():
+    """A student's code can choose the number it ends with: by it, it could tell what it was asked."""
+    visible = len(checks()[1].visible)
+    cell = f"""
+import itertools, os
+turns, right = itertools.count(), body_rate
+def body_rate(q, omega):
+    if next(turns) >= {visible}:
+        os._exit(int(abs(q[0]) * 100) + 100)
+    return right(q, omega)
+"""
+    box, results = grade(notebook_of([*RIGHT, cell]))
+    (lost,) = [result for result in results if not result.passed]
+    got = next(one.verdict.got for one in lost.outcomes if not one.verdict.passed)
+    assert lost.check.name == "body_rate" and earned(results) == 100 - lost.check.points
+    assert {got.message, box.reason} == {"the process that ran the code did not answer"}
 
 
 # --- limits -------------------------------------------------------------------------------------------------

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
+from scipy.integrate import quad, solve_ivp
 
 from reference import simulate
 from reference.cases import CASES
+from reference.cases.heaps import RATE
 from reference.peers import ENGINES, simulate_in
 
 G, FRAME = 9.81, 1 / 60
@@ -35,6 +36,21 @@ ALL = [
     ("painleve", {}, 0.01, 1e-3),
     ("painleve", {}, 0.001, 1e-4),
     ("rocking_block", {}, 1e-3, 1e-2),
+    ("heavy_on_two", {"duration": 1.0}, FRAME, 1e-9),
+    ("heavy_on_two", {"duration": 0.5, "heavy": 1e8}, 0.1, 1e-8),
+    ("heavy_on_two", {"duration": 0.5, "dimension": 3}, FRAME, 1e-9),
+    ("pulled_block", {"share": 0.98}, FRAME, 1e-9),
+    ("pulled_block", {}, FRAME, 1e-9),
+    ("descent", {"share": 1.02}, FRAME, 1e-9),
+    ("descent", {"share": 0.98}, FRAME, 1e-9),
+    ("descent", {"share": 1.02, "dimension": 3}, FRAME, 1e-9),
+    ("descent", {"share": 0.98, "dimension": 3}, FRAME, 1e-9),
+    ("card_house", {"storeys": 1, "share": 1.02, "duration": 1.0}, FRAME, 1e-9),
+    ("card_house", {"storeys": 1, "share": 0.98}, FRAME, 0.0),
+    ("card_house", {"storeys": 3, "duration": 1.0}, FRAME, 1e-9),
+    ("bridge", {"duration": 0.5}, FRAME, 1e-9),
+    ("bridge", {"planks": 10, "duration": 0.5, "dimension": 3}, FRAME, 1e-9),
+    ("kane", {}, 0.01, 1e-9),
 ]
 
 
@@ -44,6 +60,7 @@ ALL = [
 def test_ours(name, parameters, dt, tolerance):
     case = CASES[name](**parameters)
     law = {"impact": parameters.get("law", "sequential")} if name == "cradle" else {}
+    law |= {"impact": "newton"} if name == "kane" else {}
     run = simulate(case.scene, case.duration, dt, record_every=5, record_contacts=False, **law)
     assert case.error(run) <= tolerance
 
@@ -141,6 +158,97 @@ def test_the_arch_is_a_half_ring_on_the_ground():
     assert min(b.position[1] + min(y for _, y in b.shape.vertices) for b in scene.bodies[1:]) > -0.1
 
 
+def carried(run, j, k=-1):
+    """The normal force on body j from bodies with lower numbers, averaged over record k, N."""
+    c = run.contacts[k]
+    return c.impulse[c.bodies[:, 1] == j, 0].sum() / (run.time[k] - run.time[k - 1])
+
+
+def test_each_of_two_boxes_carries_half():
+    run = simulate(CASES["heavy_on_two"]().scene, 0.5, FRAME)
+    assert [carried(run, j) for j in (1, 2)] == pytest.approx([201 * G, 201 * G], rel=1e-8)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("share", [0.5, 1.0, 2.0])
+def test_descent_by_newtons_law_and_no_slip_or_coulomb(dimension, share):
+    """Three equations for a, α and the friction F: m a = m g sin θ − F, I α = F r, and a = α r or F = μ N."""
+    angle, r, k = 0.4, 0.3, 1 / 2 if dimension == 2 else 2 / 5
+    μ = share * (1 / 3 if dimension == 2 else 2 / 7) * np.tan(angle)
+    third = [1, -r, 0] if share >= 1 else [0, 0, 1]
+    right = [G * np.sin(angle), 0, 0 if share >= 1 else μ * G * np.cos(angle)]
+    a, α, _ = np.linalg.solve([[1, 0, 1], [0, k * r * r, -r], third], right)
+    motion = CASES["descent"](share=share, dimension=dimension).exact(np.array([2.0]))
+    assert motion.velocity[0, 1, 0] == pytest.approx(2 * a)
+    ω = -motion.angular_velocity[0, 1] if dimension == 2 else motion.angular_velocity[0, 1, 1]
+    assert ω == pytest.approx(2 * α)
+
+
+def test_card_house_by_its_own_forces():
+    """One pair: what its feet push outwards, as found by the solver, is what moments about a foot say."""
+    run = simulate(CASES["card_house"](storeys=1).scene, 0.5, FRAME)
+    c = run.contacts[-1]
+    foot = c.bodies[:, 0] == 0
+    thrust = np.abs(c.impulse[foot, 1] / FRAME)
+    s, h = np.sin(0.3), np.cos(0.3)
+    np.testing.assert_allclose(thrust, 0.1 * G * 0.5 * s / (h + 0.02), rtol=1e-8)
+
+
+def test_bridge_against_its_forces_summed_along_it():
+    """Forces at each hinge by summing weights from the left pier; each plank's moments must vanish."""
+    planks, load = 12, 30.0
+    scene = CASES["bridge"](planks=planks, load=load).scene
+    φ = np.array([body.orientation for body in scene.bodies[:planks]])
+    e = np.stack([np.cos(φ), np.sin(φ)], axis=1)
+    ball, middle = scene.bodies[planks].position, scene.bodies[planks // 2]
+    n = np.array([-e[planks // 2, 1], e[planks // 2, 0]])
+    along = (ball - middle.position) @ e[planks // 2]
+    assert (ball - middle.position) @ n == pytest.approx(0.5 + 0.05)  # touches the top of the plank
+    N = load * G / 2 / n[1]
+    pier_up = (planks * G + load * G) / 2
+    H = (pier_up - 0.5 * G) * e[0, 0] / -e[0, 1]  # the first plank: its far end and its weight
+    V = pier_up
+    for k in range(planks // 2 - 1):  # V: the upward force on the plank's left end, H: pulls it to the left
+        assert e[k, 0] * (V - 0.5 * G) + e[k, 1] * H == pytest.approx(0, abs=1e-9 * H)
+        V -= G
+    k = planks // 2 - 1  # this one bears the ball, at the mirror place of the one right of it
+    ball_force, place = N * np.array([-n[0], -n[1]]) * [-1, 1], -along
+    V_right = V - G + ball_force[1]
+    assert V_right == pytest.approx(0, abs=1e-9 * H)  # nothing goes up or down in the middle, by symmetry
+    turn = -0.5 * (e[k, 0] * V + e[k, 1] * H) + place * (e[k, 0] * ball_force[1] - e[k, 1] * ball_force[0])
+    right_end = np.array([H - ball_force[0], 0.0])
+    turn += 0.5 * (e[k, 0] * right_end[1] - e[k, 1] * right_end[0])
+    assert turn == pytest.approx(0, abs=1e-9 * H)
+
+
+def test_kanes_paradox_gains_energy_only_where_it_is_asked_for():
+    """ΔT = ½ λᵀ(w⁺ + w⁻) by hand: .0531 J of .68 under Newton's law; none by default, nor under Poisson's
+    with so little friction that the tip goes on sliding.
+    """
+    scene = CASES["kane"]().scene
+    gains = {}
+    for law in (None, "newton"):
+        energy = simulate(scene, 0.1, 0.01, impact=law).energy()
+        gains[law] = energy[-1] - energy[0]
+    λ_n, λ_t = (2.5 * 1.9 - 1.5 * 0.6) / 4, (1.5 * 1.9 - 2.5 * 0.6) / 4  # A = [[2.5, −1.5], [−1.5, 2.5]]
+    assert gains["newton"] == pytest.approx(0.5 * (-0.1 * λ_n + 0.6 * λ_t), rel=1e-9)
+    assert gains[None] <= 1e-12
+
+
+def test_silo_law_by_quadrature():
+    """Grains that fall freely from a half circle over the opening: ∫ √(2 g y) dx."""
+    flow = quad(lambda x: np.sqrt(2 * np.sqrt(1 - x * x)), -1, 1)[0]
+    assert flow / 2**1.5 == pytest.approx(RATE, abs=5e-4)
+
+
+@pytest.mark.parametrize(("dimension", "n"), [(2, 30), pytest.param(3, 20, marks=pytest.mark.study)])
+def test_a_small_heap_comes_to_rest(dimension, n):
+    """On the box stands its weight, to 1e-6; nothing went through, or gained energy."""
+    case = CASES["heap"](n=n, dimension=dimension, duration=4.0)
+    run = simulate(case.scene, case.duration, 1 / 60, record_every=15)
+    assert run.status == "ok" and case.error(run) < 1e-6
+
+
 # ---- the engines, to what CASES.md grants them
 
 FINE = {"slop": 1e-4, "iterations": 100}
@@ -155,6 +263,14 @@ IN_ENGINES = [
     ("pymunk", "arch", {"ratio": 0.06, "duration": 2.0}, 1e-3, FINE, 0.0),
     ("pymunk", "overhang", {"share": 0.7}, 1e-3, FINE, 1e-2),
     ("pymunk", "overhang", {"share": 1.3}, 1e-3, FINE, 0.0),
+    ("pymunk", "heavy_on_two", {"duration": 0.5}, 1e-3, FINE, 1e-2),
+    ("pybullet", "pulled_block", {"share": 2.0}, 1e-3, BULLET, 3e-3),
+    ("pymunk", "descent", {"share": 0.5}, 1e-3, FINE, 3e-3),
+    ("pymunk", "descent", {"share": 1.5}, 1e-3, FINE, 3e-3),
+    ("pybullet", "descent", {"share": 1.5, "dimension": 3}, 1e-3, BULLET, 3e-3),
+    ("pymunk", "card_house", {"storeys": 1, "share": 1.5, "duration": 1.0}, 1e-3, FINE, 1e-2),
+    ("pymunk", "card_house", {"storeys": 1, "share": 0.6}, 1e-3, FINE, 0.0),
+    ("pymunk", "bridge", {"planks": 10, "duration": 0.2}, 1e-3, FINE, 1e-2),
 ]
 
 
@@ -179,6 +295,11 @@ def test_bad_parameters_are_named():
         ("rocking_block", {"tilt": 0.5}, "tilt"), ("rolling", {"dimension": 4}, "dimension"),
         ("spinning_disc", {"spin": -1}, "spin"), ("table", {"leg": 0}, "leg"),
         ("rolling_plate", {"duration": 0}, "duration"),
+        ("heavy_on_two", {"heavy": 0}, "heavy"), ("pulled_block", {"share": -1}, "share"),
+        ("descent", {"angle": 2.0}, "angle"), ("card_house", {"storeys": 2, "share": 0.9}, "share"),
+        ("bridge", {"planks": 11}, "planks"), ("bridge", {"span": 1.5}, "span"),
+        ("kane", {"friction": 0.1}, "friction"), ("heap", {"n": 0}, "n must"),
+        ("silo", {"opening": 0}, "opening"),
     ):  # fmt: skip
         with pytest.raises(ValueError, match=word):
             CASES[name](**parameters)

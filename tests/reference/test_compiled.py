@@ -1,5 +1,6 @@
 """Compiled and plain give the same; the cache is used, and never serves what was edited."""
 
+import importlib
 import json
 import os
 import shutil
@@ -174,6 +175,38 @@ def test_bind_of_plain_functions_is_a_partial():
         return f(x) + 1
 
     assert compiled.bind(apply, abs)(-3) == 4
+
+
+CALLS_NUMPY = """import numpy as np
+
+from reference.compiled import compiled
+
+@compiled
+def thrice(f, x):
+    y = np.zeros(3)
+    for i in range(3):
+        y[i] = f(x)
+    return np.sum(y)
+
+@compiled
+def twice(x):
+    return 2 * x
+"""
+
+
+@needs_numba
+def test_bind_takes_functions_that_call_numpy_and_still_sees_edits(tmp_path, monkeypatch):
+    """Python compiles np.zeros in another way beside ``import numpy as np`` than in a function read alone."""
+    file = tmp_path / "calls_numpy.py"
+    file.write_text(CALLS_NUMPY)
+    monkeypatch.syspath_prepend(tmp_path)
+    module = importlib.import_module("calls_numpy")
+    assert compiled.bind(module.thrice, module.twice)(4.0) == 24
+    for edited in (CALLS_NUMPY.replace("np.zeros", "np.ones"), "# one line more\n" + CALLS_NUMPY):
+        file.write_text(edited)
+        compiled._bind_compiled.cache_clear()
+        with pytest.raises(RuntimeError, match="restart Python"):
+            compiled.bind(module.thrice, module.twice)
 
 
 @needs_numba

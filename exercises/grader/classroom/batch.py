@@ -66,14 +66,17 @@ class Batch:
         return cases.check_hash(unit), digest(self.drawn[unit])[:16]
 
     def _payloads(self):
-        starters = {unit: workers.starter_cells(unit) for unit in self.drawn}
         for key, one in self.waiting.items():
             notebook, _ = _read(one)  # nothing, if it has gone meanwhile: the sandbox rejects that
             self.marks[key] = digest(notebook)
             yield (
                 key,
                 job.payload(
-                    one.unit, notebook, self.drawn[one.unit], starters[one.unit], self.options.unsafe
+                    one.unit,
+                    notebook,
+                    self.drawn[one.unit],
+                    workers.of_starter(one.unit),
+                    self.options.unsafe,
                 ),
             )
 

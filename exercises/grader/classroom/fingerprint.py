@@ -4,32 +4,38 @@ This runs in the sandbox, without the student's code, under its limits: to split
 is to parse it. Two notebooks that share most of their numbers share most of their code.
 """
 
-import hashlib
 import io
 import json
 import keyword
 import tokenize
+import zlib
 
 WINDOW = 12  # tokens that must agree in a row
 MOST = 1500  # numbers kept of a notebook: the smallest, so that two notebooks keep the same ones
 LONGEST_CELL = 200_000
+LARGEST_FOR_HINTS = 1_000_000  # bytes of a notebook
+PRIME, BASE = 2**61 - 1, 0x5DEECE66D1234567  # of a rolling hash: each number follows from the one before
 
 
-def of_cells(cells, extra):
-    """`cells` and `extra["starter"]` are lists of cells' sources → the numbers, and hints."""
-    own = _shingles(cells) - _shingles(extra["starter"])
-    return {"numbers": sorted(own)[:MOST], "hints": _hints(extra["notebook"])}
+def of_cells(cells, file, starter):
+    """`cells` are the cells' sources, `file` the notebook's bytes, `starter` our own starter's numbers → the
+    cells' numbers, and hints."""
+    own = shingles(cells).difference(starter)
+    return {"numbers": sorted(own)[:MOST], "hints": _hints(file) if len(file) <= LARGEST_FOR_HINTS else []}
 
 
-def _shingles(cells):
-    found = set()
+def shingles(cells):
+    """A number for each WINDOW tokens in a row."""
+    found, oldest = set(), pow(BASE, WINDOW, PRIME)
     for cell in cells:
-        tokens = _tokens(cell[:LONGEST_CELL])
-        for start in range(len(tokens) - WINDOW + 1):
-            window = "\0".join(tokens[start : start + WINDOW])
-            found.add(
-                int.from_bytes(hashlib.blake2b(window.encode(errors="replace"), digest_size=6).digest())
-            )
+        codes = [zlib.crc32(token.encode(errors="replace")) for token in _tokens(cell[:LONGEST_CELL])]
+        value = 0
+        for place, code in enumerate(codes):
+            value = (value * BASE + code) % PRIME
+            if place >= WINDOW:
+                value = (value - codes[place - WINDOW] * oldest) % PRIME
+            if place >= WINDOW - 1:
+                found.add(value)
     return found
 
 
@@ -47,10 +53,10 @@ def _tokens(cell):
     return tokens
 
 
-def _hints(text):
+def _hints(file):
     """Names of graded cells, as nbgrader's metadata tell them: never trusted, only shown."""
     try:
-        marks = [cell.get("metadata", {}).get("nbgrader") for cell in json.loads(text)["cells"]]
+        marks = [cell.get("metadata", {}).get("nbgrader") for cell in json.loads(file)["cells"]]
         names = [str(mark["grade_id"])[:60] for mark in marks if mark and mark.get("grade")]
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return []

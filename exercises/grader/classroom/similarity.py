@@ -7,6 +7,9 @@ compared.
 import itertools
 from collections import Counter, defaultdict
 
+import numpy as np
+import scipy.sparse
+
 SHARE = 0.8  # of the smaller one's numbers that must be in both
 LEAST = 60  # numbers below which everyone's solution looks alike
 COMMON, FEW = (
@@ -52,13 +55,17 @@ def _without_common(numbers_of):
 
 
 def _pairs(numbers_of):
-    holders, shared = defaultdict(list), Counter()
-    for one, numbers in numbers_of.items():
-        if len(numbers) >= LEAST:
-            for number in numbers:
-                shared.update((other, one) for other in holders[number])
-                holders[number].append(one)
-    for (one, other), count in shared.items():
-        share = count / min(len(numbers_of[one]), len(numbers_of[other]))
-        if share >= SHARE:
-            yield share, one, other
+    """By the product of a matrix with its transpose: a row a submission, a column a number, 1 where it has
+    it."""
+    ones = [one for one, numbers in numbers_of.items() if len(numbers) >= LEAST]
+    sizes = np.array([len(numbers_of[one]) for one in ones])
+    if len(ones) < 2:
+        return
+    numbers = np.concatenate([np.fromiter(numbers_of[one], dtype="i8") for one in ones])
+    columns = np.unique(numbers, return_inverse=True)[1]
+    has = scipy.sparse.csr_array(
+        (np.ones(len(columns), int), (np.repeat(np.arange(len(ones)), sizes), columns))
+    )
+    shared = (has @ has.T).toarray() / np.minimum.outer(sizes, sizes)
+    for first, second in np.argwhere(np.triu(shared >= SHARE, 1)):
+        yield float(shared[first, second]), ones[first], ones[second]

@@ -2,7 +2,7 @@
 
     grader's side       box         one submission: load its cells, put questions, status and troubles
                         workers     one worker of it, seen from outside
-                        nursery     the one parent process of a grader, started and talked to
+                        nursery     the parent processes of a grader, started and talked to
                         wire        pipes with limits on time and length
                         folder      its folder among the temporary ones
                         files, words   a student's file and words, handled with tongs

@@ -11,6 +11,7 @@ from exercises.grader.sandbox import nursery as home
 from exercises.grader.sandbox.files import compiled, contents
 from exercises.grader.sandbox.isolation import choose
 from exercises.grader.sandbox.limits import Limits, stretch
+from exercises.grader.sandbox.preload import names_tools
 from exercises.grader.sandbox.wire import Gone
 from exercises.grader.sandbox.words import Trouble, clean
 from exercises.grader.sandbox.workers import Worker
@@ -33,11 +34,14 @@ class Sandbox:
 
     def __init__(self, unit, given=None, limits=None, unsafe=False):
         self.unit, self.limits = unit, limits or Limits()
-        self.given = compiled(Path(given or exercises.FOLDER / unit / "given.py"))
+        self.given, self.helpers_need_tools = compiled(Path(given or exercises.FOLDER / unit / "given.py"))
         self.kind = choose(unsafe)
         self.isolation = self.kind.split(",")[0]
         self.status, self.reason = "unsandboxed" if self.kind == "none" else "ok", ""
         self.troubles, self.titles, self.modes, self.data, self.form = [], [], [], b"", ""
+        self.codes = b""  # of the cells; not looked at here
+        self.tools = False  # needs the large ones
+        self.told = None  # what our own function made of the cells
         self.worker, self.started, self.seconds, self.cpu = None, time.monotonic(), 0.0, 0.0
 
     def __enter__(self):
@@ -52,12 +56,18 @@ class Sandbox:
 
     # --- what the grader asks -------------------------------------------------------------------------------
 
-    def load(self, source):
-        """Runs all cells of a notebook or script, a path or its bytes. Returns the box itself."""
+    def load(self, source, task=None, extra=None):
+        """Runs all cells of a notebook or script, a path or its bytes. Returns the box itself. Before that
+        our own function TASKS[task] may look at them: what it makes of them is `told`, None if it fails."""
         self.started = time.monotonic()
         try:
             self.data, self.form = contents(source, self.limits.notebook)
+            self.tools = self.helpers_need_tools or names_tools(self.data)
             self._open()
+            self.codes = self._ahead({"compile": True}) or b""
+            if task is not None:
+                told = self._ahead({"task": task, "extra": extra})
+                self.told = told and parse(told.decode())["task"]
             self._run_cells(self.limits.cell)
         except (OSError, ValueError) as error:
             self._tell("rejected", f"the file cannot be read: {error}")
@@ -75,7 +85,8 @@ class Sandbox:
         try:
             if self.status == "rejected":
                 raise Gone(self.reason)
-            answer, goes_on = self._answer(text, len(request["calls"])), "more" in request
+            visible = "more" in request
+            answer, goes_on = self._answer(text, len(request["calls"]), visible), visible
             return answer
         except Gone as error:
             message = clean(error)
@@ -88,48 +99,46 @@ class Sandbox:
                 self._end()
             self.seconds += time.monotonic() - self.started
 
-    def task(self, name, extra=None):
-        """What our own function TASKS[name] makes of the cells, in a worker that runs none of them; None if
-        that fails."""
-        if self.status == "rejected":
-            return None
-        self._end()
-        try:
-            self._open()
-            self.worker.wire.send(_line({"task": name, "extra": extra}), self.limits.cell)
-            return parse(self._reply(self.limits.cell))["task"]
-        except (Gone, BadReply, KeyError, TypeError):
-            return None
-        finally:
-            self._end()
-
     # --- workers --------------------------------------------------------------------------------------------
 
-    def _answer(self, text, calls):
+    def _answer(self, text, calls, visible):
         if self.worker is None:
             self._open()
             self._run_cells(2 * self.limits.cell)
         seconds = min(self.limits.question, self.limits.call * calls)
         self.worker.wire.send(text.encode() + b"\n", self._left(seconds))
-        return self._reply(self._left(seconds))
+        return self._reply(self._left(seconds), visible)
 
-    def _reply(self, seconds):
+    def _reply(self, seconds, visible):
+        """Of a hidden case it is not told how the process ended: a student's code can choose how."""
         try:
             data = self.worker.wire.line(seconds, self.limits.reply)
         except Gone as error:
             if error.late:
                 raise Gone(f"{error}: a loop that does not end, or far too many steps", late=True) from None
-            raise Gone(f"the process that ran the code did not answer: {error}{self._last_words()}") from None
+            how = f": {error}{self._last_words()}" if visible else ""
+            raise Gone(f"the process that ran the code did not answer{how}") from None
         if sum(data.count(mark) for mark in (b",", b"[", b"{")) > MOST_PARTS:
             raise Gone(f"the answer has more than {MOST_PARTS:,} parts")
         return data.decode("utf-8", "replace")
 
+    def _ahead(self, message):
+        """The answer of the worker that is open, which has run none of the cells; None if that ended it."""
+        try:
+            self.worker.wire.send(_line(message), self.limits.cell)
+            return self.worker.wire.line(self._left(self.limits.cell), LONGEST_CELLS)
+        except Gone:
+            self._end()
+            self._open()
+            return None
+
     def _open(self):
         """A fresh worker that holds the cells; none has run."""
-        self.worker = Worker(self.kind, self.limits)
-        header = {"open": self.unit, "given": len(self.given), "file": len(self.data), "form": self.form}
+        self.worker = Worker(self.kind, self.limits, self.tools)
+        parts = {"given": self.given, "codes": self.codes, "file": self.data}
+        header = {"open": self.unit, **{name: len(part) for name, part in parts.items()}, "form": self.form}
         try:
-            self.worker.wire.send(_line(header) + self.given + self.data, LONGEST_OPEN)
+            self.worker.wire.send(_line(header) + b"".join(parts.values()), LONGEST_OPEN)
             answer = json.loads(self.worker.wire.line(LONGEST_OPEN, LONGEST_TITLES))
             if "unconfined" in answer:
                 raise home.SandboxError(f"a worker could not be shut in: {answer['unconfined']}")
@@ -137,6 +146,7 @@ class Sandbox:
                 raise Gone(clean(answer["rejected"]))
             if self.form != "cells":  # from now on the cells' source alone goes in, as the worker wrote it
                 self.data, self.form = self.worker.wire.line(LONGEST_OPEN, LONGEST_CELLS), "cells"
+                self.tools = self.helpers_need_tools or names_tools(self.data)
                 self.titles = [clean(title, 60) for title in answer["titles"]]
                 self.modes = ["whole"] * len(self.titles)
         except Gone as error:

@@ -19,12 +19,11 @@ def arrange_pipes(inbox, outbox, kept=()):
     ]  # out of the way of what they replace
     for number, copy in enumerate(copies):
         os.dup2(copy, number)
-    keep = set(range(OUTBOX + 1)) | set(kept)
-    for number in range(OUTBOX + 1, 256):
-        if number not in keep:
-            with contextlib.suppress(OSError):
-                os.close(number)
-    os.closerange(256, 4096)
+    first = OUTBOX + 1
+    for number in sorted(kept):
+        os.closerange(first, number)
+        first = number + 1
+    os.closerange(first, 4096)
 
 
 def shut_in(box):

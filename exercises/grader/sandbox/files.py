@@ -5,6 +5,8 @@ import marshal
 import os
 import stat
 
+from exercises.grader.sandbox.preload import names_tools
+
 
 def contents(source, longest):
     """(bytes, "notebook" or "script") of a path or of bytes. No link is followed, nothing but a file is
@@ -25,6 +27,7 @@ def contents(source, longest):
 
 @functools.cache
 def compiled(given):
-    """The code of a unit's helpers, ours and not a student's: compiled here once instead of in each
-    worker."""
-    return marshal.dumps(compile(given.read_bytes(), "given.py", "exec"))
+    """The code of a unit's helpers, ours and not a student's: compiled here once instead of in each worker.
+    And whether they import one of the large tools as soon as they are there."""
+    code = compile(given.read_bytes(), "given.py", "exec")
+    return marshal.dumps(code), names_tools(" ".join(code.co_names).encode())

@@ -3,15 +3,18 @@
 Messages come one a line, in JSON; bytes that belong to one follow its line. Until the first cell runs, what
 is sent back is our own word; after that it is the student's.
 
-    {"open": slug, "given": n, "file": m, "form": word}   n bytes of given.py's code, m of the file
+    {"open": slug, "given": n, "codes": k, "file": m, "form": word}
+             n bytes of given.py's code, k that "compile" gave, m of the file
                                          → {"titles": [first line of each cell]} or {"rejected": why}
+    {"compile": true}                    → the cells' code, so that no other worker need compile it again
     {"run": [["whole" or "part" or "no", number], ...]}       → {"done": number, "error": ...} for each
+    {"task": name, "extra": ...}                              → {"task": result}; before any cell runs
     {"calls": [...]}                                          → {"replies": [...]}, and the end
         with "more": true                                     → the same, and another message follows
-    {"task": name, "extra": ...}                              → {"task": result}, and the end
     {"canary": {...}}                                         → {"canary": [what got through]}, and the end
 """
 
+import base64
 import importlib
 import json
 import marshal
@@ -20,7 +23,7 @@ import sys
 import types
 
 import exercises
-from exercises.grader.cells import Namespace, Unreadable, cells_of
+from exercises.grader.cells import Namespace, Unreadable, cells_of, code_of
 from exercises.grader.sandbox import TASKS
 from exercises.grader.worker import Worker
 
@@ -31,7 +34,7 @@ TITLE = 60
 class Inside:
     def __init__(self, inbox, outbox):
         self.inbox, self.outbox = os.fdopen(inbox, "rb"), outbox
-        self.cells, self.namespace, self.worker = [], None, None
+        self.file, self.cells, self.codes, self.namespace, self.worker = b"", [], [], None, None
 
     def serve(self):
         for line in self.inbox:
@@ -40,7 +43,12 @@ class Inside:
             if kind == "open":
                 for message in self.open(request):
                     self.send(message)
+            elif kind == "compile":
+                self.write(self.compile())
+            elif kind == "task":
+                self.send({"task": self.task(request)})
             elif kind == "run":
+                self.file = b""
                 for mode, number in request["run"]:
                     self.send({"done": number, "error": self.run(mode, number)})
             else:
@@ -50,12 +58,10 @@ class Inside:
 
     def open(self, request):
         """What to send back; a notebook's cells, too, to be sent in alone from the second time on."""
-        given, data = self.inbox.read(request["given"]), self.inbox.read(request["file"])
+        given, codes, self.file = (self.inbox.read(request[part]) for part in ("given", "codes", "file"))
+        is_notebook, known = request["form"] == "notebook", request["form"] == "cells"
         try:
-            is_notebook = request["form"] == "notebook"
-            self.cells = (
-                json.loads(data) if request["form"] == "cells" else cells_of(data, "the file", is_notebook)
-            )
+            self.cells = json.loads(self.file) if known else cells_of(self.file, "the file", is_notebook)
         except Unreadable as error:
             return [{"rejected": str(error)}]
         if not all(isinstance(cell, str) for cell in self.cells) or len(self.cells) > MOST_CELLS:
@@ -64,22 +70,30 @@ class Inside:
         sys.modules["__main__"] = self.namespace.module
         module = load_given(request["open"], given)
         self.worker = Worker(self.namespace.names, module)
-        titles = {"titles": [title(cell) for cell in self.cells]}
-        return [titles] if request["form"] == "cells" else [titles, self.cells]
+        if known:
+            self.codes = marshal.loads(base64.b64decode(codes)) if codes else []
+            return [{"titles": []}]
+        return [{"titles": [title(cell) for cell in self.cells]}, self.cells]
+
+    def compile(self):
+        """Before any cell runs, so that this is still our own word."""
+        self.codes = [code_of(cell, _name(number)) for number, cell in enumerate(self.cells, 1)]
+        return base64.b64encode(marshal.dumps(self.codes))
 
     def run(self, mode, number):
-        name, source = f"cell {number}", self.cells[number - 1]
+        name, source = _name(number), self.cells[number - 1]
         if mode == "part":
             return self.namespace.run_definitions(source, name)
-        return self.namespace.run(source, name) if mode == "whole" else None
+        code = self.codes[number - 1] if self.codes else None
+        return self.namespace.run(source, name, code) if mode == "whole" else None
+
+    def task(self, request):
+        module, _, function = TASKS[request["task"]].partition(":")
+        return getattr(importlib.import_module(module), function)(self.cells, self.file, request["extra"])
 
     def answer(self, kind, request, line):
         if kind == "calls":
-            return self.worker.answer(line).encode()
-        if kind == "task":
-            module, _, function = TASKS[request["task"]].partition(":")
-            result = getattr(importlib.import_module(module), function)(self.cells, request["extra"])
-            return json.dumps({"task": result}, allow_nan=False).encode()
+            return self.worker.answer(line, last="more" not in request).encode()
         from exercises.grader.sandbox import canary
 
         return json.dumps({"canary": canary.sing(**request["canary"])}).encode()
@@ -91,6 +105,10 @@ class Inside:
         rest = memoryview(data + b"\n")
         while rest:
             rest = rest[os.write(self.outbox, rest) :]
+
+
+def _name(number):
+    return f"cell {number}"
 
 
 def load_given(unit, code):

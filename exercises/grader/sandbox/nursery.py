@@ -1,5 +1,5 @@
-"""The one parent process of a grader: started at the first use, in the best isolation that works here, and
-ended with the grader."""
+"""The parent processes of a grader, one with the large tools and one without: each started at its first use,
+in the best isolation that works here, and ended with the grader."""
 
 import atexit
 import contextlib
@@ -33,10 +33,10 @@ class SandboxError(RuntimeError):
 
 
 class Nursery:
-    """One parent process in one kind of isolation."""
+    """One parent process in one kind of isolation, with or without the large tools loaded."""
 
-    def __init__(self, kind):
-        self.kind = kind
+    def __init__(self, kind, tools=False):
+        self.kind, self.tools = kind, tools
         self.folder, self.lock = folder.make()
         self.complaints = open(self.folder.with_suffix(".err"), "w+b")  # noqa: SIM115 (closed with the nursery)
         os.unlink(self.complaints.name)
@@ -63,7 +63,8 @@ class Nursery:
         machine = {
             "landlock": self.kind.startswith("landlock"), "confined": self.kind != "none",
             "scratch": self.scratch,
-            "private_scratch": self.kind in ("bubblewrap", "landlock"), "user": user, "loaded": known.loaded,
+            "private_scratch": self.kind in ("bubblewrap", "landlock"), "user": user,
+            "tools": self.tools, "loaded": known.loaded[self.tools],
             "processes": most_processes(user), "readable": known.readable, "listable": known.listable,
         }  # fmt: skip
         self._ask({"start": machine})
@@ -141,29 +142,29 @@ def most_processes(user):
     return count + limits.THREADS + 256
 
 
-_current = {}  # kind → Nursery, of this process
+_current = {}  # (kind, tools, process) → Nursery
 
 
-def nursery(kind):
+def nursery(kind, tools=False):
     """This process's nursery of that kind, started if need be."""
-    here = (kind, os.getpid())
+    here = (kind, tools, os.getpid())
     if here not in _current:
-        _current[here] = Nursery(kind)
+        _current[here] = Nursery(kind, tools)
     return _current[here]
 
 
-def forget(kind):
+def forget(kind, tools=False):
     """The nursery has failed: the next question starts a new one."""
-    broken = _current.pop((kind, os.getpid()), None)
+    broken = _current.pop((kind, tools, os.getpid()), None)
     if broken is not None:
         broken.close()
 
 
 def close():
     """Ends this process's sandboxes."""
-    for kind, process in list(_current):
+    for kind, tools, process in list(_current):
         if process == os.getpid():
-            forget(kind)
+            forget(kind, tools)
 
 
 atexit.register(close)

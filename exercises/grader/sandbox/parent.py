@@ -46,7 +46,7 @@ class Parent:
     def start(self, machine, files):
         from exercises.grader.sandbox import preload
 
-        preload.load()
+        preload.load(machine["tools"])
         if machine["landlock"]:
             from exercises.grader.sandbox import landlock
 

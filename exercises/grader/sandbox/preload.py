@@ -1,4 +1,8 @@
-"""What the parent loads before its first fork, so that a worker starts in milliseconds."""
+"""What a parent loads before its first fork, so that a worker starts in milliseconds.
+
+What is loaded is copied (in part) for each fork. So there are two kinds of parent, and a submission that
+names none of the large tools is not made to carry them.
+"""
 
 import builtins
 import contextlib
@@ -10,26 +14,35 @@ import sys
 MODULES = (
     "exercises", "exercises.grader.replies", "exercises.grader.cells", "exercises.grader.worker",
     "exercises.grader.sandbox.inside", "exercises.grader.sandbox.confine", "exercises.grader.sandbox.canary",
-    "numpy", "numpy.random", "numpy.polynomial", "numpy.fft", "numpy.testing",
+    "numpy", "numpy.random", "numpy.polynomial", "numpy.fft",
+    "asyncio", "dataclasses", "typing", "functools", "itertools", "collections", "fractions", "decimal",
+    "statistics", "time", "timeit", "copy", "pprint", "lzma", "bz2", "zlib",
+    "ctypes", "concurrent.futures", "threading", "subprocess",
+)  # fmt: skip
+TOOLS = (
+    "numpy.testing", "unittest",
     "scipy", "scipy.linalg", "scipy.sparse", "scipy.sparse.linalg", "scipy.integrate", "scipy.optimize",
     "scipy.spatial.transform", "scipy.interpolate", "scipy.special",
     "numba", "numba.np.ufunc.parallel", "matplotlib", "matplotlib.pyplot",
-    "asyncio", "dataclasses", "typing", "functools", "itertools", "collections", "fractions", "decimal",
-    "statistics", "time", "timeit", "copy", "pprint", "unittest", "ssl", "sqlite3", "lzma", "bz2", "zlib",
-    "ctypes", "multiprocessing", "concurrent.futures", "threading", "subprocess", "curses", "readline",
-    "uuid",
+    "ssl", "sqlite3", "multiprocessing", "curses", "readline", "uuid",
 )  # fmt: skip
+WORDS = (b"scipy", b"numba", b"matplotlib", b"pylab", b"mpl_toolkits", b"testing", b"unittest")
 
 
-def load():
+def names_tools(data):
+    """Do these bytes name one of the large tools? Where they hide it, its import only takes longer."""
+    return any(word in data for word in WORDS)
+
+
+def load(tools=True):
     """Imports all that is there. A tool that this machine lacks is missing to its students, too."""
     from exercises.grader import absent, ipython, numba_cache
     from exercises.grader.sandbox import TASKS
 
     numba_cache.off()
-    for name in (*MODULES, *(task.partition(":")[0] for task in TASKS.values())):
-        with contextlib.suppress(ImportError):
-            importlib.import_module(name)
+    bring((*MODULES, *(task.partition(":")[0] for task in TASKS.values())))
+    if tools:
+        bring(TOOLS)
     ipython.find()
     _quiet_backend()
     _interactive_names()
@@ -37,6 +50,12 @@ def load():
     import exercises
 
     exercises.silent = True
+
+
+def bring(names):
+    for name in names:
+        with contextlib.suppress(ImportError):
+            importlib.import_module(name)
 
 
 def settle():

@@ -43,10 +43,14 @@ _TELL = """
 import json, os, sys
 sys.path += json.loads(sys.argv[1])
 from exercises.grader.sandbox import preload
+def size():
+    return int(open("/proc/self/statm").read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+preload.bring(preload.MODULES)
+sizes = [size()]
 preload.load()
+sizes.append(size())
 mapped = {line.split(None, 5)[5].strip() for line in open("/proc/self/maps") if "/" in line}
-size = int(open("/proc/self/statm").read().split()[0]) * os.sysconf("SC_PAGE_SIZE")
-print(json.dumps([sorted(mapped), size]))
+print(json.dumps([sorted(mapped), sizes]))
 """
 
 
@@ -57,7 +61,7 @@ class Survey:
     listable: tuple  # folders in which names may be looked up
     tools: tuple  # packages
     system: tuple  # shared libraries and their other names
-    loaded: int  # bytes of addresses in use once all is loaded
+    loaded: tuple  # bytes of addresses in use once all is loaded, without the large tools and with them
 
     @property
     def readable(self):
@@ -107,7 +111,9 @@ def survey():
     system = [name for file in mapped if not file.startswith(tuple(known)) for name in _names_of(file)]
     system += _starters()
     tools += [str(file) for file in ipython.files().values()]
-    return Survey(path, tuple(library), (*map(str, folders), *path), tuple(tools), tuple(system), loaded)
+    return Survey(
+        path, tuple(library), (*map(str, folders), *path), tuple(tools), tuple(system), tuple(loaded)
+    )
 
 
 def _tools():

@@ -8,6 +8,7 @@ from reference.bench_lcp import LCP_STUDIES, LcpStudy
 from reference.bench_sweeps import SweepStudy
 from reference.cases.lcp_lattice import lattice
 from reference.cases.lcp_problems import LCP_PROBLEMS
+from reference.cases.lcp_recorded import SCENES, as_lcp, record, recorded
 from reference.lcp import SOLVERS
 
 
@@ -62,3 +63,24 @@ def test_the_lattice_looks_like_contact(factored):
     assert np.linalg.eigvalsh(A.toarray()).min() > 0.9
     rubbing = lattice(30, frictionless=False)
     assert rubbing.answer is None and list(np.flatnonzero(rubbing.problem.terms.normal < 0)[:3]) == [0, 3, 6]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(SCENES))
+def test_recorded_problems_are_what_the_step_solved(name):
+    """The step itself solves for the exact cone, by another method, to 1e-10: in the plane that is the same
+    law, and its w must be that of all our solvers that say they have solved it to 1e-10, times about 10.
+    """
+    scene, time, _ = SCENES[name]
+    run = record(scene(), time)
+    problem, w = as_lcp(*run.asked)
+    known, size = recorded(name), np.abs(problem.b).max()
+    assert np.array_equal(known.problem.A, problem.A) and np.array_equal(known.problem.b, problem.b)
+    solved = 0
+    for method in ("lemke", "dantzig", "min_map_newton", "fischer_newton"):
+        solution = SOLVERS[method](problem, max_iterations=1000)
+        if solution.solved:
+            assert np.abs(solution.w - w(run.after)).max() <= 1e-9 * size
+            assert known.error(solution.lam) <= 1e-8
+            solved += 1
+    assert solved >= 2

@@ -9,7 +9,7 @@ from reference.cases.lcp_problems import LCP_PROBLEMS
 from reference.compiled import plain
 from reference.factored import Factored
 from reference.lcp import LCP, SOLVERS, dantzig, enumeration, gauss_seidel, lemke, murty
-from reference.lcp.lemke import follow_path
+from reference.lcp.lemke_path import follow_path
 from reference.lcp.murty import least_index
 from reference.lcp.pivoting import proves_infeasible, scaled
 from reference.lcp.rounds import begin

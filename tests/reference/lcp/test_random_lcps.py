@@ -7,64 +7,81 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import lcp_enumeration
 import random_lcps
 from reference.cases.lcp_problems import LCP_PROBLEMS
 from reference.lcp import LCP, SOLVERS, STATUSES
 
 PIVOTING = "murty", "dantzig", "lemke"
-ITERATIONS = {"max_iterations": 200}
+SHORT = {
+    "min_map_newton": 20,
+    "fischer_newton": 20,
+}  # most solve it in 10; line searches that don't take long
 
 
 def solve_all(problem):
-    """name -> Solution of every solver that takes an LCP."""
-    return {name: solver(problem, **ITERATIONS) for name, solver in SOLVERS.items()}
+    """name -> Solution of every solver."""
+    return {name: solver(problem, max_iterations=SHORT.get(name, 200)) for name, solver in SOLVERS.items()}
 
 
 def judge(seed, brute_force=True):
-    """Every solver on one random problem; returns name -> status."""
+    """Every solver on one random problem; returns name -> status. brute_force: search for solutions, too."""
     A, b, lower, upper, friction, kind = random_lcps.parts(seed)
     solutions = solve_all(LCP(A, b, lower, upper, friction=friction))
-    for name, solution in solutions.items():
-        where = f"seed {seed}, {name}: {solution}"
-        assert solution.status in STATUSES and len(solution.reason) > 30, where
-        assert solution.solved == (solution.residual <= 1e-10), where
-        if solution.solved:
-            assert random_lcps.is_answer(A, b, lower, upper, friction, solution.lam), where
     status = {name: solution.status for name, solution in solutions.items()}
-    if "infeasible" in status.values():
-        assert "solved" not in status.values(), f"seed {seed}: {status}"
-        if friction is None and brute_force:
-            assert not meaningful(A, lcp_enumeration.solutions(A, b, lower, upper)), f"seed {seed}: {status}"
+    size, judged = random_lcps.scale(A, b, lower, upper, friction), set()
+    for name, solution in solutions.items():
+        assert solution.status in STATUSES and len(solution.reason) > 30, f"seed {seed}, {name}"
+        if solution.solved:
+            assert solution.residual <= 1e-10, f"seed {seed}, {name}"
+            if solution.lam.tobytes() not in judged:  # several solvers often end in the same digits
+                right = random_lcps.is_answer(A, b, lower, upper, friction, solution.lam, size=size)
+                assert right, f"seed {seed}, {name}: λ = {solution.lam}"
+            judged.add(solution.lam.tobytes())
+    assert not {"solved", "infeasible"} <= set(status.values()), f"seed {seed}: {status}"
+    if brute_force and {"solved", "infeasible"} & set(status.values()):
+        found = random_lcps.solvable(A, b, lower, upper, friction)
+        assert found == ("solved" in status.values()), f"seed {seed}: {status}"
     check_proofs(seed, solutions, A, b, lower, upper, friction)
     if friction is None and kind == "p":
-        assert all(status[name] == "solved" for name in (*PIVOTING, "enumeration")), f"seed {seed}: {status}"
+        check_unique(seed, solutions, A, b, lower, upper)
     return status
 
 
-def meaningful(A, solutions):
-    """Those solutions that rounding didn't make: where A is singular but for its last digits, there may be
-    one at λ of 1e16.
-    """
-    return [λ for λ in solutions if regular(A, np.flatnonzero(np.array(λ, dtype=float)))]
-
-
-def regular(A, on):
-    sizes = np.linalg.svd(A[np.ix_(on, on)], compute_uv=False) if len(on) else np.ones(1)
-    return sizes[-1] > 1e-12 * sizes[0]
+def check_unique(seed, solutions, A, b, lower, upper):
+    """A is positive definite, so a P-matrix: pivoting solves it, and all that is called solved is one λ."""
+    pivoting = [solutions[name] for name in (*PIVOTING, "enumeration")]
+    assert all(solution.solved for solution in pivoting), f"seed {seed}: {pivoting}"
+    size = max(np.abs(solution.lam).max(initial=0) for solution in pivoting)
+    within = random_lcps.farthest(A, b, lower, upper, pivoting[0].lam)
+    for one, other in itertools.combinations((s for s in solutions.values() if s.solved), 2):
+        apart = np.linalg.norm(one.lam - other.lam)
+        assert apart <= 2 * within, f"seed {seed}: {one.lam} and {other.lam}"
+    if len(b):
+        for one, other in itertools.pairwise(pivoting):
+            assert np.abs(one.lam - other.lam).max() <= 1e-9 * np.linalg.cond(A) * size, f"seed {seed}"
 
 
 def check_proofs(seed, solutions, A, b, lower, upper, friction):
+    """Certificates prove what they say: by planes for each cone, or by a linear program."""
     for name, solution in solutions.items():
         if solution.status != "infeasible":
             continue
-        if name == "enumeration":
-            proof = solution.certificate
-            for on, y in zip(proof["z_may_be_positive"], proof["y"], strict=True):
-                cone = np.where(on, -proof["M"], np.eye(len(on)))
-                assert (y @ cone).min() >= -1e-8 * np.abs(y).max() and y @ proof["q"] < 0, f"seed {seed}"
+        if "M" in solution.certificate:
+            check_planes(seed, solution.certificate)
         elif friction is None:
-            assert random_lcps.nothing_feasible(A, b, lower, upper), f"seed {seed}, {name}: {solution}"
+            assert random_lcps.nothing_feasible(A, b, lower, upper), f"seed {seed}, {name}: {solution.lam}"
+
+
+def check_planes(seed, proof):
+    """y · column ≥ 0 for the columns of each cone and y · q < 0, so no combination ≥ 0 of them is q.
+
+    Rounding leaves y · column at −ε. Then a combination x is only shut out while ε Σx < −y · q: so no x
+    smaller than a million times q is asked, beside columns of about 1.
+    """
+    M, q = proof["M"], proof["q"]
+    for on, y in zip(proof["z_may_be_positive"], proof["y"], strict=True):
+        below = max(0.0, -(y @ np.where(on, -M, np.eye(len(on)))).min())
+        assert -(y @ q) > 1e6 * below * np.abs(q).max(), f"seed {seed}: {y}"
 
 
 @pytest.mark.parametrize("block", range(6))
@@ -88,6 +105,28 @@ def test_a_hundred_thousand():
             count[name, status] = count.get((name, status), 0) + 1
     for (name, status), times in sorted(count.items()):
         print(f"{name:15} {status:15} {times}")
+
+
+@pytest.mark.parametrize("unit", [1e-12, 1.0, 1e12])
+@pytest.mark.parametrize("name", sorted(SOLVERS))
+def test_a_row_of_zeros_in_any_units(name, unit):
+    """w_1 = 2 whatever λ is, so λ_1 must be at its lower bound; beside λ_0 of 1e12 the residual wouldn't see
+    that it isn't.
+    """
+    A, b, lower, upper = (
+        np.diag([1 / unit, 0]),
+        np.array([-1.0, 2]),
+        np.array([0, -unit]),
+        np.array([np.inf, unit]),
+    )
+    problem = LCP(A, b, lower, upper)
+    assert problem.residual([unit, 0.0]) < 1e-10 or unit < 1e12
+    for start in (None, [unit, 0.0], [unit, unit]):
+        solution = SOLVERS[name](problem, start)
+        assert not solution.solved or random_lcps.is_answer(A, b, lower, upper, None, solution.lam)
+    if name in ("enumeration", "dantzig", "lemke", "min_map_newton", "fischer_newton"):
+        assert solution.solved and len(solution.record) <= 1
+    assert not SOLVERS[name](LCP(A, b, [0, -np.inf], upper)).solved
 
 
 @pytest.mark.parametrize("seed", range(12))

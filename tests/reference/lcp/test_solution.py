@@ -45,8 +45,8 @@ def test_a_row_of_zeros_that_no_force_makes_right_is_never_solved():
     """Beside λ of 1e11 its w = −2 looks small; yet nothing can be done about it."""
     A, b = np.diag([4e-11, 0, 0]), np.array([-3.0, -2, -1])
     solution = finish(LCP(A, b), [7.5e10, 0, 0], 1, "solved", 1e-10)
-    assert solution.status == "infeasible" and "row 1 of A is 0" in solution.reason
-    y = solution.certificate
+    assert solution.status == "infeasible" and "Row 1 of A is 0" in solution.reason
+    y = solution.certificate["y"]
     assert (y >= 0).all() and (y @ A <= 0).all() and y @ b < 0
     assert finish(LCP(A, [-3.0, 2, 1]), [7.5e10, 0, 0], 1, "solved", 1e-10).solved
     assert finish(LCP(A, b, upper=[np.inf, 5, 5]), [7.5e10, 5, 5], 1, "solved", 1e-10).solved

@@ -1,0 +1,14 @@
+# Mistake: the gap is widened.
+# Loses: acceleration, swing
+# Says: acceleration: The gap is widened
+# ruff: noqa: F821 (names that are not defined here are solution_a's)
+
+
+# %%
+def acceleration(x, v, length, alpha, beta):
+    r = np.linalg.norm(x)
+    n = x / r
+    phi, rate = r - length, n @ v
+    turning = (v @ v - rate**2) / r
+    lam = -2 * alpha * rate + beta**2 * phi - turning - n @ given.GRAVITY
+    return given.GRAVITY + lam * n

@@ -1,0 +1,16 @@
+# Mistake: both bodies get the same.
+# Loses: pin
+# Says: pin: Both bodies get the same
+# ruff: noqa: F821 (names that are not defined here are solution_a's)
+
+
+# %%
+def pin(x, v, mass, length, error_bias, max_bias, dt, steps):
+    x, v = x.copy(), v.copy()
+    for _ in range(steps):
+        x += dt * v
+        wanted = -(1 - error_bias**dt) * (x[1] - x[0] - length) / dt
+        wanted = np.clip(wanted, -max_bias, max_bias)
+        push = (wanted - (v[1] - v[0])) / 2
+        v += push * np.array([-1, 1])
+    return x, v

@@ -1,0 +1,16 @@
+# Mistake: positions move with the new velocities.
+# Loses: pin
+# Says: pin: pymunk moves the positions first
+# ruff: noqa: F821 (names that are not defined here are solution_a's)
+
+
+# %%
+def pin(x, v, mass, length, error_bias, max_bias, dt, steps):
+    x, v = x.copy(), v.copy()
+    for _ in range(steps):
+        wanted = -(1 - error_bias**dt) * (x[1] - x[0] - length) / dt
+        wanted = np.clip(wanted, -max_bias, max_bias)
+        push = (wanted - (v[1] - v[0])) / np.sum(1 / mass)
+        v += push * np.array([-1, 1]) / mass
+        x += dt * v
+    return x, v

@@ -1,0 +1,229 @@
+"""From where to start where much sticks, slides and parts: an interior-point method for contact's convex law.
+
+Newton's method for the kinks of ``smooth_pass`` tries one state of the contacts after another. In a heap
+there are more than it can try. Here λ and w stay *inside* their cones, where nothing has kinks, and approach
+the answer together along the path on which all their products are the same, s ∘ z = t e, with t → 0:
+
+    M (u − u_free) = Jᵀ λ,    w = J u + c,    s ∘ z = t e;     z = (μ λ_n, λ_t),  s = (w_n/μ, w_t)
+
+z and s then live in one and the same round cone. Each step is a linear system with M + Jᵀ W⁻² J, W a block a
+contact: the scaling that takes z and s to the same point, W z = W⁻¹ s (Nesterov and Todd's). 10 to 25 steps,
+whatever the heap, and from any start. What it finds, to 1e-10, is where the passes of ``cone_newton`` begin.
+
+Slides S14; lectures/08_newton_lcp.md. Source: Nesterov & Todd, SIAM J. Optim. 8 (1998) 324; Mehrotra, SIAM J.
+Optim. 2 (1992) 575 (two solves a step); Acary, Armand, Nguyen & Shpakovych, Optim. Methods Softw. 39 (2024)
+(friction by such methods).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..compiled import compiled_apart, inner, inner_apart
+from .augmented import STICKS, ContactRows, dot
+from .block_cholesky import factorise, solve
+from .round_cone import aim, find_scaling, put_inverse_square, to_boundary
+from .smooth_pass import fill_matrix
+
+MOST_STEPS, CLOSE = 40, 1e-10
+SMALLEST_FRICTION = 1e-3  # less is taken for this: z and s would be too thin to be computed with
+BACK, STUCK = 0.99, 0.01  # of the way to where a cone ends; a way that is none
+FIRM = 1e-4  # ε of what has bounds on both sides, or none: it is held, as if it had none
+
+
+class Inside(NamedTuple):
+    """Room for s, z and what belongs to them, (m,) each but the last."""
+
+    s: np.ndarray
+    z: np.ndarray
+    ds: np.ndarray
+    dz: np.ndarray
+    p: np.ndarray  # J u + c − s
+    r: np.ndarray  # what z is to change by, but for W⁻² times what s does
+    turn: np.ndarray  # W's axis, of determinant 1
+    θ: np.ndarray  # (B,): W's size
+    room: np.ndarray  # (4, 3)
+
+
+@compiled_apart
+def start_inside(rows, M, free, λ, u, size, scale, factor, out):
+    """λ (m,) and u (n, k) of the convex law, roughly: in place. Returns the steps taken.
+
+    size (B,): A's largest diagonal entry of each block; scale: the worst free w, m/s. factor, out: room.
+    """
+    rows, unit = make_round(rows)
+    m = len(unit)
+    inside = Inside(
+        np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m),
+        np.zeros(len(size)), np.zeros((4, 3)),
+    )  # fmt: skip
+    right, ρ, cones = np.empty_like(u), np.ones(len(size)), begin(rows, unit, size, scale, inside, out)
+    for i in range(len(u)):
+        for a in range(u.shape[1]):
+            u[i, a] = free[i, a]
+    steps = 0
+    while steps < MOST_STEPS:
+        off = look(rows, M, free, u, inside, out.gradient, unit)
+        total, worst = scale_all(rows, size, inside, out.slope)
+        if max(off, np.sqrt(worst)) <= CLOSE * scale:
+            break
+        fill_matrix(rows, M, ρ, out, factor)
+        if not factorise(factor.blocks):
+            break
+        way = 1.0
+        for correcting in range(2):
+            aim_all(rows, inside, (1 - way) ** 3 * total / cones, correcting == 1)
+            pull(rows, out, inside, right)
+            solve(factor.blocks, right, factor.move)
+            way = move_along(rows, out.slope, factor.move, inside)
+        if not way > STUCK:  # as far as rounding lets it come
+            break
+        advance(min(1.0, BACK * way), factor.move, u, inside)
+        steps += 1
+    for i in range(m):
+        λ[i] = unit[i] * inside.z[i]
+    for q in range(len(size)):
+        factor.made[q] = -1
+    return steps
+
+
+@inner_apart
+def begin(rows, unit, size, scale, inside, out):
+    """s and z on the axes of their cones; θ = −1 where there is none. Returns how many (at least 1)."""
+    cones = 0
+    for q in range(len(size)):
+        i, out.state[q], inside.θ[q] = rows.block[q], STICKS, -1.0
+        if rows.μ[q] >= 0 or (rows.lower[i] == 0 and rows.upper[i] == np.inf):
+            inside.s[i], inside.z[i], inside.θ[q] = scale * unit[i], scale / (size[q] * unit[i]), 1.0
+            cones += 1
+    return max(cones, 1)
+
+
+@inner_apart
+def scale_all(rows, size, inside, slope):
+    """W of each cone, and W⁻² into slope. Returns Σ s·z, and the worst of them as a velocity squared."""
+    total, worst = 0.0, 0.0
+    for q in range(len(size)):
+        first, end = rows.block[q], rows.block[q + 1]
+        if inside.θ[q] < 0:
+            slope[first, 0] = 1 / (FIRM * size[q])
+            continue
+        s, z, turn = inside.s[first:end], inside.z[first:end], inside.turn[first:end]
+        product = dot(s, z)
+        total, worst = total + product, max(worst, product * size[q])
+        inside.θ[q] = find_scaling(s, z, turn)
+        put_inverse_square(turn, inside.θ[q], slope[first:end])
+    return total, worst
+
+
+@inner_apart
+def aim_all(rows, inside, target, correcting):
+    """r of each cone: −z for what would be best if all were linear; then so that s ∘ z becomes target e."""
+    for q in range(len(inside.θ)):
+        first, end = rows.block[q], rows.block[q + 1]
+        if inside.θ[q] > 0 and correcting:
+            s, z, turn = inside.s[first:end], inside.z[first:end], inside.turn[first:end]
+            ds, dz, r = inside.ds[first:end], inside.dz[first:end], inside.r[first:end]
+            aim(s, z, ds, dz, turn, inside.θ[q], target, r, inside.room)
+        elif inside.θ[q] > 0:
+            for i in range(first, end):
+                inside.r[i] = -inside.z[i]
+
+
+@inner
+def advance(way, move, u, inside):
+    """Go so much of the way."""
+    for i in range(len(u)):
+        for a in range(u.shape[1]):
+            u[i, a] += way * move[i, a]
+    for i in range(len(inside.s)):
+        inside.s[i] += way * inside.ds[i]
+        inside.z[i] += way * inside.dz[i]
+
+
+@compiled_apart
+def make_round(rows):
+    """The rows with J and c in units in which each cone is round, w_n/μ and w_t; and the units (m,)."""
+    unit = np.ones(len(rows.c))
+    for q in range(len(rows.μ)):
+        if rows.μ[q] >= 0:
+            unit[rows.block[q]] = 1 / max(rows.μ[q], SMALLEST_FRICTION)
+    J, c = rows.J.copy(), unit * rows.c
+    for r in range(len(c)):
+        J[r] *= unit[r]
+    return ContactRows(rows.bodies, J, c, rows.block, rows.μ, rows.lower, rows.upper), unit
+
+
+@inner_apart
+def look(rows, M, free, u, inside, gradient, unit):
+    """p = J u + c − s, and the gradient M (u − free) − Jᵀ z. Returns the worst of both, as a velocity."""
+    worst, k, p = 0.0, u.shape[1], inside.p
+    for i in range(len(u)):
+        for a in range(k):
+            total = 0.0
+            for b in range(k):
+                total += M[i, a, b] * (u[i, b] - free[i, b])
+            gradient[i, a] = total
+    for r in range(len(p)):
+        p[r] = rows.c[r] - inside.s[r]
+        for side in range(2):
+            i = rows.bodies[r, side]
+            if i >= 0:
+                p[r] += dot(rows.J[r, side], u[i])
+                for a in range(k):
+                    gradient[i, a] -= rows.J[r, side, a] * inside.z[r]
+        worst = max(worst, abs(p[r]) / unit[r])
+    for i in range(len(u)):
+        for a in range(k):
+            worst = max(worst, abs(gradient[i, a]) / M[i, a, a])
+    return worst
+
+
+@inner
+def weighted(rows, slope, q, r, x):
+    """Entry of row r of block q of W⁻² x."""
+    total, first = 0.0, rows.block[q]
+    for b in range(first, rows.block[q + 1]):
+        total += slope[r, b - first] * x[b]
+    return total
+
+
+@inner_apart
+def pull(rows, out, inside, right):
+    """right (n, k) = −gradient + Jᵀ (r − W⁻² p)."""
+    for i in range(len(right)):
+        for a in range(right.shape[1]):
+            right[i, a] = -out.gradient[i, a]
+    for q in range(len(rows.μ)):
+        for c in range(rows.block[q], rows.block[q + 1]):
+            force = inside.r[c] - weighted(rows, out.slope, q, c, inside.p)
+            for side in range(2):
+                i = rows.bodies[c, side]
+                if i >= 0:
+                    for a in range(right.shape[1]):
+                        right[i, a] += rows.J[c, side, a] * force
+
+
+@inner_apart
+def move_along(rows, slope, du, inside):
+    """ds and dz that go with du. Returns how far to go, at most 1, until the first cone ends: 0 if that is
+    not finite.
+    """
+    way, s, z, ds, dz = 1.0, inside.s, inside.z, inside.ds, inside.dz
+    for q in range(len(rows.μ)):
+        first, end = rows.block[q], rows.block[q + 1]
+        for c in range(first, end):
+            ds[c] = inside.p[c]
+            for side in range(2):
+                i = rows.bodies[c, side]
+                if i >= 0:
+                    ds[c] += dot(rows.J[c, side], du[i])
+        for c in range(first, end):
+            dz[c] = inside.r[c] - weighted(rows, slope, q, c, ds)
+            if not abs(ds[c]) + abs(dz[c]) < np.inf:
+                return 0.0
+        if inside.θ[q] < 0:
+            ds[first] = 0.0
+        else:
+            way = min(way, to_boundary(s[first:end], ds[first:end]), to_boundary(z[first:end], dz[first:end]))
+    return way

@@ -1,0 +1,116 @@
+"""Steps in which nothing special happens, one after the other, as one compiled loop.
+
+Most steps have no impact, and room enough for their contacts. Those are done here, without going back to
+Python; the others are left to ``VelocityLCP.step``, which does the same for them, and more.
+
+Slides S9, S12; lectures/05_contact.md.
+"""
+
+import numpy as np
+
+from ..compiled import compiled, inner, lean
+from ..integrators import copy
+from .bouncing import look_ahead
+from .lifting import DEEP, MOST_LIFTS, deepest, slow_down
+from .smooth import all_finite
+
+
+@compiled
+def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, collider, contacts, held,
+          pushed, t, h, steps, limits, worst, lifted, timeless):  # fmt: skip
+    """Up to so many steps of h s from the time t; pushed: keys (c,) and forces (c, d) of the contacts before.
+
+    Returns how many are done; whether the last left the state as it was; ``pushed`` now; and the impulses of
+    the last step. It ends before a step that is none of the ordinary, or whose state would not be finite. The
+    energy that lifting added, J, is added to lifted (1,).
+    """
+    solids, grid, pairs, spare, raw = collider
+    before, start, impulse = state.y.copy(), state.x.copy(), pushed[1]
+    label = numbers(len(start))
+    for done in range(steps):
+        copy(state.y, before)
+        lifts, unpaid = 0, 0.0
+        while True:  # find the contacts, and lift apart what overlaps
+            fill_free(system, t + done * h, h, state, speeds)
+            margin = reach(speeds, h, limits.closed)
+            found = detect(solids, grid, pairs, spare, raw, contacts, state, margin, h)
+            room = found[0] <= len(pairs) and found[1] <= len(contacts.gap)
+            if not room or lifts == MOST_LIFTS or deepest(contacts) <= limits.closed * (1 if lifts else DEEP):
+                break
+            if lifts == 0:
+                copy_positions(state.x, start)
+                label = numbers(len(start))
+            raise_apart(state, contacts, held, speeds, label, limits, worst)
+            lifts += 1
+        if lifts > 0:
+            unpaid = slow_down(system, state, start, label, speeds)
+            fill_free(system, t + done * h, h, state, speeds)
+        if not (room and quiet(contacts, speeds, h, limits)):
+            copy(before, state.y)
+            return done, False, pushed, impulse
+        key, made, _ = flight(
+            system, state, work, speeds, contacts, held, pushed[0], pushed[1], h, 1.0, limits, worst
+        )
+        if not all_finite(state.y):
+            copy(before, state.y)
+            return done, False, pushed, impulse
+        lifted[0] += unpaid
+        impulse = made
+        if limits.warm:
+            pushed = key, over(impulse, h)
+        if timeless and same(before, state.y):
+            return done + 1, True, pushed, impulse
+    return steps, False, pushed, impulse
+
+
+@inner
+def copy_positions(x, to):
+    """Copy (n, d)."""
+    for i in range(len(x)):
+        for a in range(x.shape[1]):
+            to[i, a] = x[i, a]
+
+
+@compiled(door=False)
+def numbers(n):
+    """0, 1, … n − 1."""
+    return np.arange(n)
+
+
+@lean
+def reach(speeds, h, closed):
+    """How far apart contacts are that matter, m: as forces could bring bodies together in the time h."""
+    hastening = 0.0
+    for i in range(len(speeds.free)):
+        for a in range(speeds.free.shape[1]):
+            hastening = max(hastening, abs(speeds.free[i, a] - speeds.before[i, a]))
+    return 2 * h * hastening + 100 * closed
+
+
+@compiled(door=False)
+def quiet(contacts, speeds, h, limits):
+    """Whether nothing strikes, or is about to."""
+    _, _, _, strikes, to_come = look_ahead(contacts, speeds, h, h, h, limits.closed)
+    for q in range(len(to_come)):
+        if to_come[q]:
+            return False
+    return not strikes
+
+
+@compiled(door=False)
+def over(impulse, h):
+    """Impulses (m, d) as forces."""
+    force = np.empty_like(impulse)
+    for q in range(len(force)):
+        for a in range(force.shape[1]):
+            force[q, a] = impulse[q, a] / h
+    return force
+
+
+@inner
+def same(a, b):
+    """Whether two flat arrays are equal."""
+    differ = 0
+    for k in range(len(a)):
+        differ += a[k] != b[k]
+    return differ == 0

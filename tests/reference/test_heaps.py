@@ -1,0 +1,81 @@
+"""Heaps: the solver to its tolerance however many contacts there are, and in whatever order bodies come."""
+
+import numpy as np
+import pytest
+
+from contact_scenes import at, ground
+from reference import Box, Capsule, Disc, Plane, Sphere, simulate
+from reference.cases import CASES
+from reference.cases.heaps import silo
+
+FRAME = 1 / 60
+
+
+def settling(d, order, n=12, seed=3):
+    """n bodies of three shapes in a narrow box, as they begin to fall on each other; added in an order."""
+    random, scene = np.random.default_rng(seed), ground(d)
+    for side in (-1, 1):
+        scene.add(Plane(at(d, -side, 0)), position=at(d, 1.2 * side, 0))
+        if d == 3:
+            scene.add(Plane((0, -side, 0)), position=(0, 1.2 * side, 0))
+    walls = len(scene.bodies)
+    places = []
+    for k in range(n):
+        across = 0.0 if d == 2 else 0.6 * (k // 3 % 2) - 0.3
+        place = at(d, 0.75 * (k % 3 - 1), 0.3 + 0.6 * (k // (3 if d == 2 else 6)), across)
+        places.append((place, random.normal(size=d) * 0.4, random.normal(size=() if d == 2 else 3)))
+    shapes = (Disc(0.3), Box((0.3, 0.3))) if d == 2 else (Sphere(0.3), Box((0.3,) * 3))
+    for k in order:
+        shape, (place, velocity, spin) = (*shapes, Capsule(0.2, 0.1))[k % 3], places[k]
+        scene.add(shape, mass=1 + 0.3 * k, position=place, velocity=velocity, angular_velocity=spin)
+    return scene, walls
+
+
+@pytest.mark.parametrize("d", [2, 3])
+@pytest.mark.parametrize("seed", range(3))
+def test_bodies_added_in_another_order_make_the_same_contacts_and_velocities(d, seed):
+    """Twelve bodies of three shapes, some of which slide, stick and part: the same contacts after a step, up
+    to the sign of n, and converged velocities within 100 × tolerance of the scale of w, the speeds.
+    """
+    order = np.random.default_rng(seed).permutation(12)
+    (one, walls), (other, _) = settling(d, range(12)), settling(d, order)
+    runs = [simulate(scene, FRAME, FRAME) for scene in (one, other)]
+    number = np.arange(walls + 12)
+    number[walls:] = walls + order  # body walls + k of the other scene is this one of the first
+    found = []
+    for run, name in zip(runs, (np.arange(walls + 12), number), strict=True):
+        c = run.contacts[1]
+        pairs = np.sort(name[c.bodies], axis=1)
+        keys = np.column_stack([pairs, np.round(c.point, 9) + 0.0])
+        found.append(keys[np.lexsort(keys.T[::-1])])
+    assert len(found[0]) > 12
+    np.testing.assert_allclose(found[0], found[1], atol=2e-9)
+    scale = max(1.0, np.abs(runs[0].velocity).max())
+    for name in ("velocity", "angular_velocity"):
+        a, b = getattr(runs[0], name)[1], getattr(runs[1], name)[1]
+        np.testing.assert_allclose(a[number], b, atol=100 * 1e-12 * scale / 0.2)  # ω: over .2 m
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("d", "n"), [(2, 100), (3, 100)])
+def test_every_step_of_a_heap_is_solved(d, n):
+    """From the fall to rest no step is left short of the tolerance, 1e-12."""
+    case = CASES["heap"](n=n, dimension=d)
+    run = simulate(case.scene, case.duration, FRAME, record_every=12)
+    assert run.status == "ok" and run.reason == "" and run.residual.max() <= 1e-12
+    assert case.error(run) < 1e-6
+
+
+@pytest.mark.study
+def test_666_spheres_come_to_rest():
+    case = CASES["heap"](duration=6.0)
+    run = simulate(case.scene, case.duration, FRAME, record_every=20)
+    assert run.status == "ok" and case.error(run) < 1e-6
+
+
+@pytest.mark.study
+def test_discs_run_out_of_a_silo_at_hagens_rate():
+    """Mass is kept (none is lost or gets through a wall), and the rate is right to the law's own 25 %."""
+    case = silo(n=1000, duration=6.0)
+    run = simulate(case.scene, case.duration, FRAME, record_every=3, record_contacts=False)
+    assert run.status == "ok" and case.error(run) < 0.25
