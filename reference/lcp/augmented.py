@@ -41,6 +41,7 @@ class Law(NamedTuple):
     give: np.ndarray  # 1 + ρ γ of the first row: 1 where it is rigid
     shift: np.ndarray  # added to w_n
     limit: np.ndarray  # of friction, by itself; −1: the cone
+    answer: np.ndarray  # (B, 2): the shift before, and the μ|w_t| that it led to
 
 
 class Pass(NamedTuple):
@@ -56,7 +57,8 @@ class Pass(NamedTuple):
 @compiled
 def make_law(blocks):
     """Rigid, no shift, no limit; ρ is still to be set."""
-    return Law(np.empty(blocks), np.ones(blocks), np.zeros(blocks), np.full(blocks, -1.0))
+    limit, answer = np.full(blocks, -1.0), np.zeros((blocks, 2))
+    return Law(np.empty(blocks), np.ones(blocks), np.zeros(blocks), limit, answer)
 
 
 @compiled

@@ -28,7 +28,7 @@ from ..factored import add_rows
 from .augmented import ContactRows, dot, make_law, make_pass
 from .cone_interior import start_inside
 from .contact_sweeps import fill_moves, sweep_contacts, velocity
-from .coulomb import renew_limit, renew_shift
+from .coulomb import begin_shift, renew_limit, renew_shift
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
 from .shift import make_memory, mix_shifts
@@ -43,7 +43,7 @@ NEAR, SMALLEST = 1e-6, 1e-10  # ε at first, and where passes shrink the error t
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # w's rounding makes 1e-16/ε in λ: to polish, a larger ε
 NEAR_LIMIT, LARGEST, QUICKEST = 1e-4, 1.0, 1e-12  # where λ sets the limits, and so its rounding counts
 WILD = 10.0  # times the worst free w: limits that lead astray
-PATIENCE, SWEEPS = 6, 32  # passes that may not halve the error; sweeps at first where they don't
+PATIENCE, SWEEPS = 6, 32  # passes that may not halve the error (see ``patience``); sweeps at first
 FEW, MANY, FROM_INSIDE = 12, 50, 1e-4  # Newton steps in a pass; ε after more than a few of them
 
 
@@ -65,30 +65,23 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
         return u, 0, 0.0
     add_rows(rows.bodies, moves, λ, u)
     wanted = tolerance * scale
-    if coulomb:
-        renew_shift(rows, u, law)
+    begin_law(rows, u, coulomb, law)
     ε, error, drift, limits, best, since, sweeps = near, np.inf, np.inf, False, np.inf, 0, SWEEPS
     raised, may_rest, kept, kept_error = False, True, λ.copy(), np.inf
     most, memory = FEW, make_memory(blocks)
     for passes in range(max_iterations):
-        weigh(ε, size, softness, law)
-        steps = solve_smooth(
-            rows, M, free, λ, law, factor, u, 0.1 * wanted, out, trial, MANY if limits else most
-        )
-        if steps == most == FEW and not limits:  # too many states to try: come from inside the cones
-            start_inside(rows, M, free, λ, u, size, scale, factor, out)
-            if coulomb:
-                renew_shift(rows, u, law)
+        weigh(ε, size, softness, law, factor)
+        allowed = MANY if limits else most
+        steps = solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * wanted, out, trial, allowed)
+        if steps == FEW == allowed:  # too many states to try: come from inside the cones
             ε, drift, most = FROM_INSIDE, np.inf, MANY
-            weigh(ε, size, softness, law)
+            start_inside(rows, M, free, λ, u, size, scale, factor, out)
+            begin_law(rows, u, coulomb, law)
+            weigh(ε, size, softness, law, factor)
             solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * wanted, out, trial, most)
         last, before, drift, changed = error, drift, renew(rows, out, λ, law.ρ) / scale, 0.0
-        if coulomb and limits:
-            changed = renew_limit(rows, λ, size, law) / scale
-        elif coulomb and most == MANY:
-            changed = mix_shifts(rows, out.w, law.shift, memory, drift * scale) / scale
-        elif coulomb:
-            changed = renew_shift(rows, u, law) / scale
+        if coulomb:
+            changed = renew_law(rows, λ, u, out.w, size, drift * scale, limits, most, memory, law) / scale
         error = max(drift, changed)
         if passes < len(history):
             history[passes] = error
@@ -96,32 +89,54 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
             return u, passes + 1, error
         since = 0 if error < 0.5 * best else since + 1
         best = error if limits and error > 100 * last else min(best, error)  # λ has got somewhere else
-        lost = limits and not error < WILD
-        if coulomb and (lost or since >= (PATIENCE if most == FEW and not limits else 2 * PATIENCE)):
-            if limits:  # the other way
+        if coulomb and (since >= patience(limits, most) or (limits and not error < WILD)):  # the other way
+            if limits:
                 sweep_from_best(rows, moves, softness, free, λ, u, kept, error <= kept_error, wanted, sweeps)
-                renew_shift(rows, u, law)
+                begin_law(rows, u, coulomb, law)
                 sweeps *= 2
             else:
                 kept_error = keep_better(λ, error, kept, kept_error)
                 renew_limit(rows, λ, size, law)
             limits, raised, may_rest, best, since = not limits, False, True, np.inf, 0
             error, drift, ε = np.inf, np.inf, NEAR_LIMIT if limits else near
-            factor.made[:] = -1
         elif limits and raised:
             raised = False  # what ε just left over shows in this pass's error
         else:
-            used = ε
-            if limits:
-                may_rest = may_rest and (drift <= tolerance or ε <= NEAR_LIMIT)
-                ε = limit_weight(ε, error, last, may_rest and drift <= tolerance)
-            elif drift > max(0.25 * before, changed) and ε > SMALLEST and most == FEW:
-                ε *= 0.01
-            raised = ε > used
-            if ε != used:
-                factor.made[:] = -1
+            may_rest = may_rest and (drift <= tolerance or ε <= NEAR_LIMIT)
+            rests, keeps = may_rest and drift <= tolerance, drift <= max(0.25 * before, changed)
+            new = limit_weight(ε, error, last, rests) if limits else shift_weight(ε, keeps or most == MANY)
+            raised, ε = new > ε, new
     sweep_from_best(rows, moves, softness, free, λ, u, kept, error <= kept_error, wanted, 0)
     return u, max_iterations, min(error, kept_error)
+
+
+@compiled(door=False)
+def begin_law(rows, u, coulomb, law):
+    """As ``begin_shift``, where the law is Coulomb's."""
+    if coulomb:
+        begin_shift(rows, u, law)
+
+
+@compiled(door=False)
+def renew_law(rows, λ, u, w, size, drift, limits, most, memory, law):
+    """What the next pass takes from this one. Returns the worst change, m/s."""
+    if limits:
+        return renew_limit(rows, λ, size, law)
+    return mix_shifts(rows, w, law.shift, memory, drift) if most == MANY else renew_shift(rows, u, law)
+
+
+@inner
+def shift_weight(ε, keeps):
+    """The next ε: the same, or a smaller one where passes shrink the error too slowly."""
+    return ε if keeps or ε <= SMALLEST else 0.01 * ε
+
+
+@inner
+def patience(limits, most):
+    """How many passes may not halve the error: shifts that are mixed take their time."""
+    if limits:
+        return 2 * PATIENCE
+    return PATIENCE if most == FEW else 4 * PATIENCE
 
 
 @compiled
@@ -142,7 +157,7 @@ def keep_better(λ, error, kept, kept_error):
     return min(error, kept_error)
 
 
-@compiled
+@inner
 def limit_weight(ε, error, last, rests):
     """The next ε where friction has limits, from how the error went. Where λ creeps on, long steps get it
     over with; where w is right whatever λ is, short ones let it rest.
@@ -153,11 +168,13 @@ def limit_weight(ε, error, last, rests):
 
 
 @inner
-def weigh(ε, size, softness, law):
-    """ρ = 1/(ε A_cc), and what gives way for it."""
+def weigh(ε, size, softness, law, factor):
+    """ρ = 1/(ε A_cc), what gives way for it; and the factor was made for another."""
     for q in range(len(size)):
-        law.ρ[q] = 1 / (ε * size[q])
-        law.give[q] = 1 + law.ρ[q] * softness[q]
+        ρ = 1 / (ε * size[q])
+        if ρ != law.ρ[q]:
+            factor.made[q] = -1
+        law.ρ[q], law.give[q] = ρ, 1 + ρ * softness[q]
 
 
 @compiled_apart

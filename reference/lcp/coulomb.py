@@ -22,20 +22,40 @@ from .contact_sweeps import velocity
 
 
 @compiled
+def begin_shift(rows, u, law):
+    """The shift that belongs to u, no limit, and nothing known of how the shift answers."""
+    for q in range(len(rows.μ)):
+        law.limit[q], law.answer[q, 0], law.answer[q, 1] = -1.0, np.inf, 0.0
+        law.shift[q] = wanted_shift(rows, q, u)
+
+
+@compiled
 def renew_shift(rows, u, law):
-    """The shift ← μ|w_t|, and no limit. Returns the worst change, a velocity."""
+    """The shift ← μ|w_t|, or further. Returns the worst change that u asks for, a velocity.
+
+    μ|w_t| answers to a change of the shift, by μ²/(1 + μ²) of it where A is a multiple of 1. Each contact's
+    last two answers tell by how much, and its shift goes where it answers to itself (the secant method).
+    """
     worst = 0.0
     for q in range(len(rows.μ)):
-        law.limit[q] = -1.0
         if rows.μ[q] <= 0:
             continue
-        along = 0.0
-        for r in range(rows.block[q] + 1, rows.block[q + 1]):
-            along += velocity(rows, r, u) ** 2
-        new = rows.μ[q] * np.sqrt(along)
-        worst = max(worst, abs(new - law.shift[q]))
-        law.shift[q] = new
+        new, old = wanted_shift(rows, q, u), law.shift[q]
+        change, changed = new - old, old - law.answer[q, 0]
+        worst = max(worst, abs(change))
+        share = (new - law.answer[q, 1]) / changed if abs(changed) > 1e-12 * abs(new) else 0.0
+        law.answer[q, 0], law.answer[q, 1] = old, new
+        law.shift[q] = max(0.0, old + change / (1 - min(max(share, -1.0), 0.8)))
     return worst
+
+
+@compiled
+def wanted_shift(rows, q, u):
+    """μ|w_t| of contact q, m/s."""
+    along = 0.0
+    for r in range(rows.block[q] + 1, rows.block[q + 1]):
+        along += velocity(rows, r, u) ** 2
+    return max(rows.μ[q], 0.0) * np.sqrt(along)
 
 
 @compiled
