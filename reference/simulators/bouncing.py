@@ -25,6 +25,7 @@ SHORT = 1e-3  # of a step
 HARD = 0.5  # times what forces change the speed by in a step: a landing that is faster is hard
 MATTERS = 0.02  # of the energy of motion: a landing that takes less isn't worth a step of the whole scene
 MOST_TRIES = 60  # at the time of an impact
+SHORTEST = 1e-9  # of the time searched: less is no flight
 
 
 @compiled_apart
@@ -204,7 +205,7 @@ def root(f, begin, end, f_begin, f_end, guess, tolerance):
         if not low < time < high:
             time = low + 0.5 * (high - low)
         value = f(time)
-        if abs(value) <= tolerance:
+        if abs(value) <= tolerance or time - low <= SHORTEST * end:
             break
         if value > 0:  # kept: which end stayed in the last try: −1 the lower, 1 the upper
             low, f_low, f_high = time, value, f_high / 2 if kept == 1 else f_high
