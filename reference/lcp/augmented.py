@@ -6,6 +6,9 @@ P is the projection on the friction cone of a contact, or on the bounds of a sin
 that these velocities call for, and M (u − u_free) − Jᵀ λ̂ the gradient. P has kinks where a contact changes
 from open to sticking to sliding, and is smooth between; P′ is its Jacobian, one of them at a kink.
 
+A row may give way, w = J u + c + γ λ. Then λ̂ = P(λ − ρ (J u + c + γ λ̂)), which need not be iterated: it is
+the projection of y in which the row's share of the distance is weighed by 1 + ρ γ.
+
 Slides S10, S14; lectures/08_newton_lcp.md. Source: Rockafellar, Math. Oper. Res. 1 (1976) 97.
 """
 
@@ -16,6 +19,7 @@ import numpy as np
 from ..compiled import compiled, inner, inner_apart
 
 OPEN, STICKS, SLIDES = 0, 1, 2  # 3: slides the other way, in the plane
+ALONE = 4  # friction with a limit of its own; + 2: pressed, + 1: slides
 
 
 class ContactRows(NamedTuple):
@@ -30,6 +34,16 @@ class ContactRows(NamedTuple):
     upper: np.ndarray  # (m,)
 
 
+class Law(NamedTuple):
+    """What changes from pass to pass, (B,) each."""
+
+    ρ: np.ndarray  # the weight
+    give: np.ndarray  # 1 + ρ γ of the first row: 1 where it is rigid
+    shift: np.ndarray  # added to w_n
+    limit: np.ndarray  # of friction, by itself; −1: the cone
+    answer: np.ndarray  # (B, 2): the shift before, and the μ|w_t| that it led to
+
+
 class Pass(NamedTuple):
     """What ``evaluate`` fills in for a velocity u."""
 
@@ -38,6 +52,13 @@ class Pass(NamedTuple):
     slope: np.ndarray  # (m, 3): P′, the rows of each block
     state: np.ndarray  # (B,): 0 open, 1 sticks, 2 slides
     gradient: np.ndarray  # (n, k)
+
+
+@compiled
+def make_law(blocks):
+    """Rigid, no shift, no limit; ρ is still to be set."""
+    limit, answer = np.full(blocks, -1.0), np.zeros((blocks, 2))
+    return Law(np.empty(blocks), np.ones(blocks), np.zeros(blocks), limit, answer)
 
 
 @compiled
@@ -57,7 +78,7 @@ def dot(a, b):
 
 
 @inner_apart
-def evaluate(rows, M, free, λ, ρ, shift, u, out):
+def evaluate(rows, M, free, λ, law, u, out):
     """The augmented Lagrangian at u, with λ̂, P′ and the gradient into ``out``."""
     value, k = 0.0, u.shape[1]
     for i in range(len(u)):
@@ -76,8 +97,8 @@ def evaluate(rows, M, free, λ, ρ, shift, u, out):
                 if i >= 0:
                     w += dot(rows.J[r, side], u[i])
             out.w[r] = w
-            out.λ[r] = λ[r] - ρ[q] * (w + shift[q] if r == first else w)
-        value += project(rows, q, first, end, out) / ρ[q]
+            out.λ[r] = λ[r] - law.ρ[q] * (w + law.shift[q] if r == first else w)
+        value += project(rows, q, first, end, law.give[q], law.limit[q], out) / law.ρ[q]
         for r in range(first, end):
             for side in range(2):
                 i = rows.bodies[r, side]
@@ -88,41 +109,47 @@ def evaluate(rows, M, free, λ, ρ, shift, u, out):
 
 
 @inner
-def project(rows, q, first, end, out):
-    """P of block q in place, P′ and the state; returns y·P(y) − ½ P(y)², whose gradient P is."""
+def project(rows, q, first, end, give, limit, out):
+    """P of block q in place, P′ and the state; returns the block's term of L times ρ, whose gradient P is.
+
+    give, limit: the block's in ``Law``.
+    """
     y, μ = out.λ, rows.μ[q]
     for r in range(first, end):
         put_slope(out.slope, r, 0.0, 0.0, 0.0)
     if μ < 0:
         before = y[first]
-        y[first] = min(max(before, rows.lower[first]), rows.upper[first])
-        out.state[q] = STICKS if y[first] == before else OPEN
-        out.slope[first, 0] = float(out.state[q])
-        return before * y[first] - 0.5 * y[first] ** 2
+        y[first] = min(max(before / give, rows.lower[first]), rows.upper[first])
+        out.state[q] = STICKS if y[first] == before / give else OPEN
+        out.slope[first, 0] = out.state[q] / give
+        return before * y[first] - 0.5 * give * y[first] ** 2
     n, along = y[first], 0.0
     for r in range(first + 1, end):
         along += y[r] ** 2
     tangential = np.sqrt(along)
-    if n >= 0 and tangential <= μ * n:  # within the cone: it sticks
-        out.state[q] = STICKS
-        for r in range(first, end):
+    if limit >= 0:
+        return press(first, end, n, tangential, give, limit, q, out)
+    if n >= 0 and tangential <= μ * n / give:  # within the cone: it sticks
+        out.state[q], y[first] = STICKS, n / give
+        out.slope[first, 0] = 1 / give
+        for r in range(first + 1, end):
             out.slope[r, r - first] = 1.0
-        return 0.5 * (n * n + along)
+        return 0.5 * (n * n / give + along)
     if μ * tangential <= -n:  # within the polar cone: it parts
         out.state[q] = OPEN
         for r in range(first, end):
             y[r] = 0.0
         return 0.0
-    return slide(rows, q, n, tangential, out)
+    return slide(rows, q, n, tangential, give, out)
 
 
 @inner
-def slide(rows, q, n, tangential, out):
+def slide(rows, q, n, tangential, give, out):
     """P on the cone's surface: f (1, μ t), with t the unit vector along which y pulls, f its share of y."""
     μ, first, d = rows.μ[q], rows.block[q], rows.block[q + 1] - rows.block[q]
     t1 = out.λ[first + 1] / tangential
     t2 = out.λ[first + 2] / tangential if d == 3 else 0.0
-    share = 1 / (1 + μ * μ)
+    share = 1 / (give + μ * μ)
     f = (n + μ * tangential) * share
     across = μ * f / tangential if d == 3 else 0.0  # turning t is all that the second tangent adds
     put_slope(out.slope, first, share, share * μ * t1, share * μ * t2)
@@ -133,7 +160,29 @@ def slide(rows, q, n, tangential, out):
         put_slope(out.slope, first + 2, share * μ * t2, both, share * μ * μ * t2 * t2 + across * t1 * t1)
         out.λ[first + 2] = μ * f * t2
     out.state[q] = SLIDES if t1 > 0 or d == 3 else SLIDES + 1
-    return 0.5 * (1 + μ * μ) * f * f
+    return 0.5 * (give + μ * μ) * f * f
+
+
+@inner
+def press(first, end, n, tangential, give, limit, q, out):
+    """P where friction has a limit of its own: normal and tangents each by themselves."""
+    pressed, slides = n > 0, tangential > limit
+    out.state[q] = ALONE + 2 * int(pressed) + int(slides)
+    out.λ[first] = n / give if pressed else 0.0
+    put_slope(out.slope, first, 1 / give if pressed else 0.0, 0.0, 0.0)
+    value = 0.5 * n * out.λ[first]
+    if not slides:
+        for r in range(first + 1, end):
+            out.slope[r, r - first] = 1.0
+        return value + 0.5 * tangential**2
+    share, t1 = limit / tangential, out.λ[first + 1] / tangential
+    out.λ[first + 1] = limit * t1
+    if end - first == 3:  # t turns; in the plane nothing of friction at its limit changes
+        t2 = out.λ[first + 2] / tangential
+        put_slope(out.slope, first + 1, 0.0, share * t2 * t2, -share * t1 * t2)
+        put_slope(out.slope, first + 2, 0.0, -share * t1 * t2, share * t1 * t1)
+        out.λ[first + 2] = limit * t2
+    return value + limit * tangential - 0.5 * limit**2
 
 
 @inner

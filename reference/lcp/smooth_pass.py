@@ -1,4 +1,4 @@
-"""One smooth problem of ``cone_newton``: Newton's method with step halving, for fixed λ, ρ and shift.
+"""One smooth problem of ``cone_newton``: Newton's method with step halving, for fixed λ and ``Law``.
 
 The matrix M + ρ Jᵀ P′ J has one block a body, not one a contact, and stays regular where contacts are
 redundant. It changes only with what sticks, slides or parts; where nothing of that changes, its factor
@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..compiled import compiled, inner, inner_apart
-from .augmented import OPEN, SLIDES, dot, evaluate
+from .augmented import ALONE, OPEN, SLIDES, dot, evaluate
 from .block_cholesky import BlockFactor, add_block, clear, factorise, make_block_factor, solve
 
 MOST_HALVINGS = 30
@@ -36,12 +36,12 @@ def make_factor(rows, n, k):
 
 
 @inner_apart
-def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial, most):
+def solve_smooth(rows, M, free, λ, law, factor, u, tolerance, out, trial, most):
     """Newton's method for one pass, with step halving: u in place, what ``evaluate`` finds there in out.
 
     Returns how many steps it took: ``most`` if they were not enough.
     """
-    value = evaluate(rows, M, free, λ, ρ, shift, u, out)
+    value = evaluate(rows, M, free, λ, law, u, out)
     move, tried = factor.move, factor.tried
     rest, before, whole = worst_rate(M, out.gradient), np.inf, False
     for step in range(most):
@@ -49,7 +49,7 @@ def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial,
         if rest <= tolerance or (whole and fresh and rest > 0.5 * before):  # good, or as rounding lets it be
             return step
         if not fresh:
-            fill_matrix(rows, M, ρ, out, factor)
+            fill_matrix(rows, M, law.ρ, out, factor)
             factorise(factor.blocks)
         solve(factor.blocks, out.gradient, move)
         downhill, length, new = 0.0, 1.0, np.inf
@@ -59,7 +59,7 @@ def solve_smooth(rows, M, free, λ, ρ, shift, factor, u, tolerance, out, trial,
             for i in range(len(u)):
                 for a in range(u.shape[1]):
                     tried[i, a] = u[i, a] - length * move[i, a]
-            new = evaluate(rows, M, free, λ, ρ, shift, tried, trial)
+            new = evaluate(rows, M, free, λ, law, tried, trial)
             if new <= value + 1e-4 * length * downhill + 1e-13 * abs(value):
                 break
             length *= 0.5
@@ -93,8 +93,8 @@ def copy_all(a, to):
 def stands_for(rows, made, state):
     """Whether the matrix made for some states serves these too; what slides in space always changes it."""
     for q in range(len(state)):
-        turns = state[q] == SLIDES and rows.block[q + 1] - rows.block[q] == 3
-        if made[q] != state[q] or turns:
+        slides = state[q] == SLIDES or state[q] == ALONE + 1 or state[q] == ALONE + 3
+        if made[q] != state[q] or (slides and rows.block[q + 1] - rows.block[q] == 3):
             return False
     return True
 

@@ -17,21 +17,25 @@ _RANK = 1e-13  # of the largest eigenvalue: below that it is rounding
 
 
 def velocity_form(problem):
-    """(ContactRows, M (n, k, k)) of a ConeProblem or an LCP with bounds; None where A is not semidefinite."""
-    parts = None
-    if isinstance(problem.A, Factored) and problem.A.bodies.shape[1] <= 2 and not problem.A.softness.any():
-        parts = _as_it_is(problem.A)
-    parts = parts or one_body(problem.A)
+    """(ContactRows, M (n, k, k), softness (B,)) of a ConeProblem or an LCP with bounds; None where A is not
+    semidefinite. Softness stays apart where only the first row of each block has any.
+    """
+    m, parts, softness = problem.n, None, np.zeros(problem.n)
+    size = problem.size if isinstance(problem, ConeProblem) else 1
+    two = isinstance(problem.A, Factored) and problem.A.bodies.shape[1] <= 2
+    if two and not problem.A.softness.reshape(-1, size)[:, 1:].any():
+        parts, softness = _as_it_is(problem.A), problem.A.softness
+    if parts is None:
+        parts, softness = one_body(problem.A), np.zeros(m)
     if parts is None:
         return None
     bodies, J, M = parts
-    m = problem.n
     if isinstance(problem, ConeProblem):
         block, μ = np.arange(0, m + 1, problem.size), problem.mu.copy()
         lower, upper = np.zeros(m), np.full(m, np.inf)
     else:
         block, μ, lower, upper = np.arange(m + 1), np.full(m, -1.0), problem.lower, problem.upper
-    return ContactRows(bodies, J, problem.b, block, μ, lower, upper), M
+    return ContactRows(bodies, J, problem.b, block, μ, lower, upper), M, softness[::size].copy()
 
 
 def _as_it_is(A):

@@ -16,7 +16,8 @@ import numpy as np
 
 from ..compiled import compiled, compiled_apart, inner
 from ..contacts import keys, part, parting_speed, put_row, spread
-from ..lcp.cone_newton import over_mass
+from ..lcp.augmented import dot
+from ..lcp.contact_sweeps import divide_by_mass
 from .flight import scatter_velocities
 
 MOST_IMPACTS = 100  # in one step; after them nothing bounces any more until the step's end
@@ -24,6 +25,7 @@ SHORT = 1e-3  # of a step
 HARD = 0.5  # times what forces change the speed by in a step: a landing that is faster is hard
 MATTERS = 0.02  # of the energy of motion: a landing that takes less isn't worth a step of the whole scene
 MOST_TRIES = 60  # at the time of an impact
+SHORTEST = 1e-9  # of the time searched: less is no flight
 
 
 @compiled_apart
@@ -36,7 +38,7 @@ def look_ahead(contacts, speeds, filled, h, left, closed):
     """
     m, k = contacts.count[0], speeds.before.shape[1]
     w, rate, e = np.empty(m), np.empty(m), np.empty(m)
-    to_come, strikes, row, energy = np.zeros(m, np.bool_), False, np.zeros(k), -1.0
+    to_come, strikes, room, energy = np.zeros(m, np.bool_), False, np.zeros((2, k)), -1.0
     for q in range(m):
         w[q] = parting_speed(contacts, q, speeds.before)
         rate[q] = (parting_speed(contacts, q, speeds.free) - w[q]) / filled
@@ -49,7 +51,7 @@ def look_ahead(contacts, speeds, filled, h, left, closed):
         hard = not rebounds and (near or comes) and -w[q] > HARD * h * abs(rate[q])
         if hard:
             energy = kinetic_energy(speeds.M, speeds.before) if energy < 0 else energy
-            hard = impact_energy(contacts, q, w[q], speeds.M, row) > MATTERS * energy
+            hard = impact_energy(contacts, q, w[q], speeds.M, room) > MATTERS * energy
         if near:
             strikes = strikes or (w[q] < 0 and e[q] > 0) or hard
             to_come[q] = rebounds and w[q] > 0 and w[q] + left * rate[q] < 0
@@ -70,14 +72,15 @@ def kinetic_energy(M, u):
 
 
 @inner
-def impact_energy(contacts, q, w, M, row):
-    """½ w² over 1/m as contact q feels it: what an impact of it alone would take, J. row (k,): room."""
-    lightness = 0.0
+def impact_energy(contacts, q, w, M, room):
+    """½ w² over 1/m as contact q feels it: what an impact of it alone would take, J. room (2, k)."""
+    lightness, row, moved = 0.0, room[0], room[1]
     for side in range(2):
         i = contacts.slot[q, side]
         if i >= 0:
             put_row(row, contacts.frame[q, 0], contacts.arm[q, side], 1.0)
-            lightness += over_mass(M[i], row)
+            divide_by_mass(M[i], row, moved)
+            lightness += dot(row, moved)
     return 0.5 * w * w / lightness
 
 
@@ -202,7 +205,7 @@ def root(f, begin, end, f_begin, f_end, guess, tolerance):
         if not low < time < high:
             time = low + 0.5 * (high - low)
         value = f(time)
-        if abs(value) <= tolerance:
+        if abs(value) <= tolerance or time - low <= SHORTEST * end:
             break
         if value > 0:  # kept: which end stayed in the last try: −1 the lower, 1 the upper
             low, f_low, f_high = time, value, f_high / 2 if kept == 1 else f_high

@@ -27,7 +27,7 @@ from ..correction import (
 from .bouncing import motion
 from .flight import move
 from .impacts import rates
-from .solving import factors
+from .solving import moves_and_diagonal
 from .velocity_lcp import VelocityLCP
 
 
@@ -70,7 +70,7 @@ class FixedStep(VelocityLCP):
             rows.c[joints] -= baumgarte_velocity(self.held.error(), h, given["fraction"])
         if self.correction != "soft":
             return rows, None
-        γ, share = soft_coefficients(1 / factors(rows, self.M).diagonal(), h, **given)
+        γ, share = soft_coefficients(1 / moves_and_diagonal(rows, self.M)[1], h, **given)
         closed = (contacts.gap <= 0) & (back == 0)
         gives = np.zeros(len(rows.c), dtype=bool)
         gives[first], gives[joints] = closed, self.held.closed()
@@ -123,7 +123,8 @@ class FixedStep(VelocityLCP):
             rows = self.rows(frictionless, contacts.gap, self.held.to_lift())
             if not len(rows.c):
                 return
-            A, δ = factors(rows, self.M), np.zeros_like(self.before)
+            moves, diagonal = moves_and_diagonal(rows, self.M)
+            δ = np.zeros_like(self.before)
             pushes = np.concatenate([np.ones(len(contacts.gap), dtype=bool), self.held.limit])
-            position_sweep(A.bodies, A.J, A.B, A.diagonal(), rows.c, pushes, fraction, slop, most, δ)
+            position_sweep(rows.bodies, rows.J, moves, diagonal, rows.c, pushes, fraction, slop, most, δ)
             displace(self.state, δ[:, : self.d], δ[: len(self.state.q), self.d :])

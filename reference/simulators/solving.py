@@ -17,7 +17,7 @@ from ..compiled import compiled
 from ..factored import Factored
 from ..lcp import LCP, SOLVERS, ConeProblem
 from ..lcp.cone_newton import ContactRows, cone_newton_kernel
-from ..lcp.velocity_form import one_body
+from ..lcp.contact_sweeps import fill_moves
 from .impacts import rates
 
 USABLE = 1e-6  # a residual with which a run goes on, though the method didn't come to its end
@@ -36,7 +36,7 @@ class Unsolvable(Exception):
 def newton_in_cones(rows, M, free, λ, limits, worst):
     """``StepSolver`` by ``cone_newton``, for ``flight``; limits: its tolerance and iterations."""
     after, passes, error = cone_newton_kernel(
-        rows, M, free, True, λ, limits.tolerance, limits.iterations, np.zeros(0)
+        rows, M, free, np.zeros(len(rows.μ)), True, λ, limits.tolerance, limits.iterations, np.zeros(0)
     )
     worst[0], worst[1] = max(worst[0], passes), max(worst[1], error)
     return after
@@ -58,14 +58,10 @@ class StepSolver:
         if not len(rows.c):
             return free.copy()
         if self.name == "cone_newton":
-            if softness is None or not softness.any():
-                after, passes, error = cone_newton_kernel(rows, M, free, True, λ, *self.limits, np.zeros(0))
-            else:
-                A = factors(rows, M, softness)
-                _, passes, error = cone_newton_kernel(
-                    *as_one_body(rows, A, free), True, λ, *self.limits, np.zeros(0)
-                )
-                after = free + A.velocities(λ)
+            gives = np.zeros(len(rows.μ)) if softness is None else softness[rows.block[:-1]]
+            after, passes, error = cone_newton_kernel(
+                rows, M, free, gives, True, λ, *self.limits, np.zeros(0)
+            )
             self.note(passes, error)
             return after
         A = factors(rows, M, softness)
@@ -110,11 +106,11 @@ def factors(rows, M, softness=None):
     return Factored(rows.bodies, rows.J, B, len(M), softness, M)
 
 
-def as_one_body(rows, A, free):
-    """(rows, M, free) for the same λ: one body of as many velocities as A = G Gᵀ has rank; M = 1, J = G."""
-    bodies, G, M = one_body(A)
-    b = rates(rows, free) + rows.c
-    return ContactRows(bodies, G, b, rows.block, rows.μ, rows.lower, rows.upper), M, np.zeros(M.shape[:2])
+def moves_and_diagonal(rows, M):
+    """(M⁻¹ Jᵀ (m, 2, k), how λ = 1 moves its bodies; A_ii (m,)), where A itself isn't needed."""
+    moves = np.zeros_like(rows.J)
+    fill_moves(rows, M, moves)
+    return moves, np.einsum("rsk,rsk->r", rows.J, moves)
 
 
 def cone_problem(rows, A, free, λ):
