@@ -11,19 +11,18 @@ import math
 
 import numpy as np
 
+from ..compiled import bind
 from ..factored import Factored
 from ..layout import Bodies
 from ..lcp import LCP, lemke, min_map_newton
 from ..shapes import Plane
+from ..simulators.flight import flight
 from ..simulators.model import model
 from ..simulators.settings import Settings
 from ..simulators.velocity_lcp import VelocityLCP
-from .arches import arch
 from .ground import Ground
 from .impacts import cradle
 from .lcp_problems import Known
-from .slopes import slope
-from .stacks import pyramid, stack
 
 
 def heap(discs=30, seed=0):
@@ -40,12 +39,8 @@ def heap(discs=30, seed=0):
 
 # name: (its scene, when, s, and what is hard)
 SCENES = {
-    "stack": (lambda: stack(n=20, heavy=100.0).scene, 0.0, "a heavy top; two contacts a face, λ not unique"),
-    "pyramid": (lambda: pyramid(base=8).scene, 0.0, "more contacts than statics can tell apart"),
-    "arch": (lambda: arch().scene, 0.1, "the thrust runs round, and each joint has two contacts"),
     "cradle": (lambda: cradle(n=5).scene, 0.0, "an impact that must go through five balls"),
     "heap": (heap, 0.6, "in the midst of falling: some roll, some slide, some stick"),
-    "sliding": (lambda: slope().scene, 0.5, "friction at its bound"),
 }
 
 
@@ -54,6 +49,10 @@ class Recorder(VelocityLCP):
 
     asked = after = None
     most = 0.0  # N s; set to 0 to keep what comes next
+
+    def __init__(self, scene, bodies, settings):
+        super().__init__(scene, bodies, settings)
+        self.coast, self.flight = None, bind(flight, self.solve_in_flight)  # so that each problem is seen
 
     def solve(self, rows, free, λ):
         """As that of ``VelocityLCP``."""
@@ -92,8 +91,8 @@ def as_lcp(rows, M, free):
     return LCP(A, w(free), rows.lower, rows.upper, friction=friction), w
 
 
-def recorded(name="stack"):
-    """The problem of one of ``SCENES``: "stack", "pyramid", "arch", "cradle", "heap" or "sliding"."""
+def recorded(name="heap"):
+    """The problem of one of ``SCENES``: "cradle" or "heap"."""
     scene, time, hard = SCENES[name]
     problem, _ = as_lcp(*record(scene(), time).asked)
     best = min((solve(problem) for solve in (lemke, min_map_newton)), key=lambda solution: solution.residual)

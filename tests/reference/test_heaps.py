@@ -56,16 +56,6 @@ def test_bodies_added_in_another_order_make_the_same_contacts_and_velocities(d, 
         np.testing.assert_allclose(a[number], b, atol=100 * 1e-12 * scale / 0.2)  # ω: over .2 m
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("d", "n"), [(2, 100), (3, 100)])
-def test_every_step_of_a_heap_is_solved(d, n):
-    """From the fall to rest no step is left short of the tolerance, 1e-12."""
-    case = CASES["heap"](n=n, dimension=d)
-    run = simulate(case.scene, case.duration, FRAME, record_every=12)
-    assert run.status == "ok" and run.reason == "" and run.residual.max() <= 1e-12
-    assert case.error(run) < 1e-6
-
-
 @pytest.mark.study
 def test_666_spheres_come_to_rest():
     case = CASES["heap"](duration=6.0)
