@@ -22,10 +22,12 @@ def p_matrix(stream, n):
 
 
 def clear(v):
-    """Whether no number that decides is anywhere near 0, whatever is chosen."""
+    """Whether each choice has an answer, and no number that decides is anywhere near 0."""
     n = len(v["b"])
     for code in range(2**n):
         inside = (code >> np.arange(n)) % 2 == 1
+        if inside.any() and np.linalg.cond(v["A"][np.ix_(inside, inside)]) > 1e8:
+            return False
         if np.abs(right.values_of(v["A"], v["b"], inside)).min() < 1e-4:
             return False
     return True
@@ -36,7 +38,7 @@ def drawn(stream, make, good, number):
     found = []
     while len(found) < number:
         values = make(stream)
-        if good(values) and clear(values):
+        if clear(values) and good(values):
             found.append(values)
     return found
 
