@@ -20,9 +20,12 @@ from ..simulators.flight import flight
 from ..simulators.model import model
 from ..simulators.settings import Settings
 from ..simulators.velocity_lcp import VelocityLCP
+from .arches import arch
 from .ground import Ground
 from .impacts import cradle
 from .lcp_problems import Known
+from .slopes import slope
+from .stacks import pyramid, stack
 
 
 def heap(discs=30, seed=0):
@@ -39,8 +42,12 @@ def heap(discs=30, seed=0):
 
 # name: (its scene, when, s, and what is hard)
 SCENES = {
+    "stack": (lambda: stack(n=20, heavy=100.0).scene, 0.0, "a heavy top; two contacts a face, λ not unique"),
+    "pyramid": (lambda: pyramid(base=8).scene, 0.0, "more contacts than statics can tell apart"),
+    "arch": (lambda: arch().scene, 0.0, "the thrust runs round, and each joint has two contacts"),
     "cradle": (lambda: cradle(n=5).scene, 0.0, "an impact that must go through five balls"),
     "heap": (heap, 0.6, "in the midst of falling: some roll, some slide, some stick"),
+    "sliding": (lambda: slope(share=0.5).scene, 0.5, "friction at its bound"),
 }
 
 
@@ -56,8 +63,16 @@ class Recorder(VelocityLCP):
 
     def solve(self, rows, free, λ):
         """As that of ``VelocityLCP``."""
-        asked = rows, self.M.copy(), free.copy()
-        after = super().solve(rows, free, λ)
+        return self.noted(rows, self.M, free, λ)
+
+    def solve_in_flight(self, rows, M, free, λ, limits, worst):
+        """As that of ``VelocityLCP``: what moves, without what rests."""
+        return self.noted(rows, M, free, λ)
+
+    def noted(self, rows, M, free, λ):
+        """The velocities u⁺; what was asked is kept."""
+        asked = rows, M.copy(), free.copy()
+        after = self.solver(rows, M, free, λ, time=self.now)
         if np.abs(λ).sum() > self.most:
             self.asked, self.after, self.most = asked, after.copy(), np.abs(λ).sum()
         return after
@@ -91,8 +106,8 @@ def as_lcp(rows, M, free):
     return LCP(A, w(free), rows.lower, rows.upper, friction=friction), w
 
 
-def recorded(name="heap"):
-    """The problem of one of ``SCENES``: "cradle" or "heap"."""
+def recorded(name="stack"):
+    """The problem of one of ``SCENES``: "stack", "pyramid", "arch", "cradle", "heap" or "sliding"."""
     scene, time, hard = SCENES[name]
     problem, _ = as_lcp(*record(scene(), time).asked)
     best = min((solve(problem) for solve in (lemke, min_map_newton)), key=lambda solution: solution.residual)
