@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Polygon as Patch
 
-from lectures.plots import shown
+from lectures.plots import draw_laws, shown
 from reference import BallJoint, Box, Distance, Fixed, Hinge, Polygon, Scene, Slider, Universal
 from reference.correction import displace
 from reference.joints import ANGULAR, DISTANCE, LINEAR
@@ -87,14 +87,7 @@ def plane():
         "motor": ([-1, 0.4, 0.4, 1], [0.6, 0.6, -0.6, -0.6]),
         "limit, while it touches": ([0, 0, 1], [1, 0, 0]),
     }
-    for axes, (title, (w, λ)) in zip(panels, draw.items(), strict=True):
-        axes.axhline(0, color="0.7", linewidth=0.8)
-        axes.axvline(0, color="0.7", linewidth=0.8)
-        axes.plot(w, λ, color=ORANGE, linestyle="-", linewidth=2.5)
-        axes.set(title=title, xlabel="w", xlim=(-1, 1), ylim=(-1, 1), xticks=[], yticks=[])
-        axes.title.set_fontsize(10)
-        axes.xaxis.label.set_fontsize(11)
-    panels[0].set_ylabel("λ", rotation=0, fontsize=11)
+    draw_laws(panels, draw)
     panels[3].annotate("speed", (0.44, 0.08), fontsize=9)
     panels[3].annotate("max_force", (-0.95, 0.68), fontsize=9)
     panels[2].annotate("slope −damping", (-0.3, 0.5), fontsize=9)

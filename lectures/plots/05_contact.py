@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Polygon as Patch
 
-from lectures.plots import shown
+from lectures.plots import draw_laws, shown
 from reference import Box, Disc, Plane, Scene, simulate
 
 G, FRAME = 9.81, 1 / 60
@@ -55,13 +55,7 @@ def laws():
         "friction": ([-1, 0, 0, 1], [0.6, 0.6, -0.6, -0.6]),
         "motor": ([-1, 0.4, 0.4, 1], [0.6, 0.6, -0.6, -0.6]),
     }
-    for axes, (title, (w, λ)) in zip(panels, draw.items(), strict=True):
-        axes.axhline(0, color="0.7", linewidth=0.8)
-        axes.axvline(0, color="0.7", linewidth=0.8)
-        axes.plot(w, λ, color=ORANGE, linestyle="-", linewidth=2.5)
-        axes.set(title=title, xlabel="w", xlim=(-1, 1), ylim=(-1, 1), xticks=[], yticks=[])
-        axes.title.set_fontsize(10)
-    panels[0].set_ylabel("λ", rotation=0)
+    draw_laws(panels, draw)
     panels[1].annotate("pushes", (0.06, 0.6), fontsize=9)
     panels[1].annotate("leaves", (0.5, 0.08), fontsize=9)
     panels[2].annotate("sticks", (0.06, 0.25), fontsize=9)

@@ -5,7 +5,7 @@ import time
 import matplotlib.pyplot as plt
 import numpy as np
 
-from lectures.plots import shown
+from lectures.plots import draw_laws, shown
 from reference import Box, Disc, Distance, Plane, Scene, Simulation, simulate
 
 G, FRAME = 9.81, 1 / 60
@@ -62,13 +62,7 @@ def laws():
         "soft row": ([0.1, -0.9], [-1, 1]),
         "soft contact, d deep": ([1, 0.4, -0.1], [0, 0, 1]),
     }
-    for axes, (title, (w, λ)) in zip(panels, draw.items(), strict=True):
-        axes.axhline(0, color="0.7", linewidth=0.8)
-        axes.axvline(0, color="0.7", linewidth=0.8)
-        axes.plot(w, λ, color=ORANGE, linestyle="-", linewidth=2.5)
-        axes.set(title=title, xlabel="w", xlim=(-1, 1), ylim=(-1, 1), xticks=[], yticks=[])
-        axes.title.set_fontsize(10)
-    panels[0].set_ylabel("λ", rotation=0)
+    draw_laws(panels, draw)
     panels[1].annotate("−share φ/h", (-0.35, -0.6), fontsize=9)
     panels[2].annotate("−share φ/h", (-0.33, 0.1), fontsize=9)
     panels[2].annotate("slope −1/γ", (0.05, -0.75), fontsize=9)

@@ -30,3 +30,15 @@ def shown(value):
     if not np.isfinite(value):
         return "breaks down"
     return "< 1e-9" if value < 1e-9 else f"{value:.0e}".replace("e-0", "e-").replace("e+00", "")
+
+
+def draw_laws(panels, laws):
+    """Constraints as lines in the (w, λ) plane (S12): laws, title → (w, λ), one on each of the panels."""
+    for axes, (title, (w, λ)) in zip(panels, laws.items(), strict=True):
+        axes.axhline(0, color="0.7", linewidth=0.8)
+        axes.axvline(0, color="0.7", linewidth=0.8)
+        axes.plot(w, λ, color="#D55E00", linestyle="-", linewidth=2.5)
+        axes.set(title=title, xlabel="w", xlim=(-1, 1), ylim=(-1, 1), xticks=[], yticks=[])
+        axes.title.set_fontsize(10)
+        axes.xaxis.label.set_fontsize(11)
+    panels[0].set_ylabel("λ", rotation=0, fontsize=11)
