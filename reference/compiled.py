@@ -73,14 +73,22 @@ def inner_apart(function):
 
 
 def _compile(function, *with_functions, **options):
-    folder = code_folder(*(plain(one).__module__ for one in (function, *with_functions)))
+    modules = tuple(dict.fromkeys(m for one in (function, *with_functions) for m in _made_from(one)))
+    folder = code_folder(*modules)
     options = {"cache": folder is not None, "error_model": "numpy", "forceinline": True} | options
     Place.folder, before = folder, numba.config.CACHE_LOCATOR_CLASSES
     numba.config.CACHE_LOCATOR_CLASSES = f"{Place.__module__}.{Place.__name__}"
     try:
-        return _for_any_value(numba.njit(function, **options))
+        compiled_function = _for_any_value(numba.njit(function, **options))
     finally:
         numba.config.CACHE_LOCATOR_CLASSES = before
+    compiled_function.made_from = modules
+    return compiled_function
+
+
+def _made_from(function):
+    """The modules that a function was made from: its own, and those of the functions bound to it."""
+    return getattr(function, "made_from", (plain(function).__module__,))
 
 
 def _for_any_value(dispatcher):

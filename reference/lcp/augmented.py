@@ -6,10 +6,15 @@ P is the projection on the friction cone of a contact, or on the bounds of a sin
 that these velocities call for, and M (u − u_free) − Jᵀ λ̂ the gradient. P has kinks where a contact changes
 from open to sticking to sliding, and is smooth between; P′ is its Jacobian, one of them at a kink.
 
+Coulomb's law has w_n + μ|w_t| where the cone's own, convex law has w_n (De Saxcé). With this *shift* held at
+a number all of the above stands. Where the shift *follows* w, λ̂ is Coulomb's, but M (u − u_free) − Jᵀ λ̂ is no
+longer the gradient of anything, and its Jacobian M + ρ Jᵀ P′ Φ′ J isn't symmetric; Φ′: that of w_n + μ|w_t|.
+
 A row may give way, w = J u + c + γ λ. Then λ̂ = P(λ − ρ (J u + c + γ λ̂)), which need not be iterated: it is
 the projection of y in which the row's share of the distance is weighed by 1 + ρ γ.
 
-Slides S10, S14; lectures/08_newton_lcp.md. Source: Rockafellar, Math. Oper. Res. 1 (1976) 97.
+Slides S10, S14; lectures/08_newton_lcp.md. Source: Rockafellar, Math. Oper. Res. 1 (1976) 97; De Saxcé & Feng,
+Math. Comput. Modelling 28 (1998) 225 (the shift); Alart & Curnier, CMAME 92 (1991) 353 (such a Jacobian).
 """
 
 from typing import NamedTuple
@@ -39,9 +44,8 @@ class Law(NamedTuple):
 
     ρ: np.ndarray  # the weight
     give: np.ndarray  # 1 + ρ γ of the first row: 1 where it is rigid
-    shift: np.ndarray  # added to w_n
+    shift: np.ndarray  # added to w_n, m/s, unless it follows
     limit: np.ndarray  # of friction, by itself; −1: the cone
-    answer: np.ndarray  # (B, 2): the shift before, and the μ|w_t| that it led to
 
 
 class Pass(NamedTuple):
@@ -49,7 +53,7 @@ class Pass(NamedTuple):
 
     w: np.ndarray  # (m,)
     λ: np.ndarray  # (m,): λ̂
-    slope: np.ndarray  # (m, 3): P′, the rows of each block
+    slope: np.ndarray  # (m, 3): P′, or P′ Φ′ where the shift follows, the rows of each block
     state: np.ndarray  # (B,): 0 open, 1 sticks, 2 slides
     gradient: np.ndarray  # (n, k)
 
@@ -57,8 +61,7 @@ class Pass(NamedTuple):
 @compiled
 def make_law(blocks):
     """Rigid, no shift, no limit; ρ is still to be set."""
-    limit, answer = np.full(blocks, -1.0), np.zeros((blocks, 2))
-    return Law(np.empty(blocks), np.ones(blocks), np.zeros(blocks), limit, answer)
+    return Law(np.empty(blocks), np.ones(blocks), np.zeros(blocks), np.full(blocks, -1.0))
 
 
 @compiled
@@ -78,8 +81,8 @@ def dot(a, b):
 
 
 @inner_apart
-def evaluate(rows, M, free, λ, law, u, out):
-    """The augmented Lagrangian at u, with λ̂, P′ and the gradient into ``out``."""
+def evaluate(rows, M, free, λ, law, follows, u, out):
+    """The augmented Lagrangian at u, with λ̂, P′ and the gradient into ``out``; follows: the shift follows."""
     value, k = 0.0, u.shape[1]
     for i in range(len(u)):
         for a in range(k):
@@ -89,7 +92,7 @@ def evaluate(rows, M, free, λ, law, u, out):
             out.gradient[i, a] = total
             value += 0.5 * total * (u[i, a] - free[i, a])
     for q in range(len(rows.μ)):
-        first, end = rows.block[q], rows.block[q + 1]
+        first, end, along = rows.block[q], rows.block[q + 1], 0.0
         for r in range(first, end):
             w = rows.c[r]
             for side in range(2):
@@ -97,8 +100,13 @@ def evaluate(rows, M, free, λ, law, u, out):
                 if i >= 0:
                     w += dot(rows.J[r, side], u[i])
             out.w[r] = w
-            out.λ[r] = λ[r] - law.ρ[q] * (w + law.shift[q] if r == first else w)
+            out.λ[r] = λ[r] - law.ρ[q] * w
+            along += w * w if r > first else 0.0
+        along = np.sqrt(along)
+        out.λ[first] -= law.ρ[q] * (max(rows.μ[q], 0.0) * along if follows else law.shift[q])
         value += project(rows, q, first, end, law.give[q], law.limit[q], out) / law.ρ[q]
+        if follows and along > 0:
+            follow(rows.μ[q] / along, first, end, out)
         for r in range(first, end):
             for side in range(2):
                 i = rows.bodies[r, side]
@@ -106,6 +114,14 @@ def evaluate(rows, M, free, λ, law, u, out):
                     for a in range(k):
                         out.gradient[i, a] -= rows.J[r, side, a] * out.λ[r]
     return value
+
+
+@inner
+def follow(share, first, end, out):
+    """P′ becomes P′ Φ′: what depends on w_n depends on w_t, too; share: μ/|w_t|."""
+    for r in range(first, end):
+        for s in range(first + 1, end):
+            out.slope[r, s - first] += out.slope[r, 0] * share * out.w[s]
 
 
 @inner

@@ -1,14 +1,16 @@
-"""From where to start where much sticks, slides and parts: an interior-point method for contact's convex law.
+"""From where to start where much sticks, slides and parts: an interior-point method for contact.
 
 Newton's method for the kinks of ``smooth_pass`` tries one state of the contacts after another. In a heap
 there are more than it can try. Here λ and w stay *inside* their cones, where nothing has kinks, and approach
 the answer together along the path on which all their products are the same, s ∘ z = t e, with t → 0:
 
-    M (u − u_free) = Jᵀ λ,    w = J u + c,    s ∘ z = t e;     z = (μ λ_n, λ_t),  s = (w_n/μ, w_t)
+    M (u − u_free) = Jᵀ λ,    s = Φ(J u + c),    s ∘ z = t e;     z = (μ λ_n, λ_t)
 
-z and s then live in one and the same round cone. Each step is a linear system with M + Jᵀ W⁻² J, W a block a
-contact: the scaling that takes z and s to the same point, W z = W⁻¹ s (Nesterov and Todd's). 10 to 25 steps,
-whatever the heap, and from any start. What it finds, to 1e-10, is where the passes of ``cone_newton`` begin.
+Φ(w) = (w_n/μ, w_t) for the convex law; for Coulomb's |w_t| is added to the first (De Saxcé). z and s then live
+in one and the same round cone. Each step is a linear system with M + Jᵀ W⁻² Φ′ J, W a block a contact: the
+scaling that takes z and s to the same point, W z = W⁻¹ s (Nesterov and Todd's). 10 to 40 steps, whatever the
+heap, and from any start. That such a path leads to the answer is proved for the convex law only; in heaps it
+does for Coulomb's, too, all but always. What it finds, to 1e-8, is where the passes of ``cone_newton`` begin.
 
 Slides S14; lectures/08_newton_lcp.md. Source: Nesterov & Todd, SIAM J. Optim. 8 (1998) 324; Mehrotra, SIAM J.
 Optim. 2 (1992) 575 (two solves a step); Acary, Armand, Nguyen & Shpakovych, Optim. Methods Softw. 39 (2024)
@@ -21,13 +23,14 @@ import numpy as np
 
 from ..compiled import compiled_apart, inner, inner_apart
 from .augmented import STICKS, ContactRows, dot
-from .block_cholesky import factorise, solve
+from .block_lu import factorise, solve
+from .coulomb import along
 from .round_cone import aim, find_scaling, put_inverse_square, to_boundary
-from .smooth_pass import fill_matrix
+from .smooth_pass import fill_matrix, forget
 
-MOST_STEPS, CLOSE = 40, 1e-10
+MOST_STEPS, PATIENCE, CLOSE = 60, 8, 1e-8  # steps in all, without getting nearer, and until it is near
 SMALLEST_FRICTION = 1e-3  # less is taken for this: z and s would be too thin to be computed with
-BACK, STUCK = 0.99, 0.01  # of the way to where a cone ends; a way that is none
+BACK, STUCK = 0.99, 1e-3  # of the way to where a cone ends; a way that is none
 FIRM = 1e-4  # ε of what has bounds on both sides, or none: it is held, as if it had none
 
 
@@ -38,16 +41,18 @@ class Inside(NamedTuple):
     z: np.ndarray
     ds: np.ndarray
     dz: np.ndarray
-    p: np.ndarray  # J u + c − s
+    p: np.ndarray  # Φ − s
     r: np.ndarray  # what z is to change by, but for W⁻² times what s does
     turn: np.ndarray  # W's axis, of determinant 1
+    t: np.ndarray  # w_t/|w_t| where the law is Coulomb's, else 0: what Φ′ differs from 1 by, in w_n's row
+    square: np.ndarray  # (m, 3): W⁻²
     θ: np.ndarray  # (B,): W's size
     room: np.ndarray  # (4, 3)
 
 
 @compiled_apart
-def start_inside(rows, M, free, λ, u, size, scale, factor, out):
-    """λ (m,) and u (n, k) of the convex law, roughly: in place. Returns the steps taken.
+def start_inside(rows, M, free, coulomb, λ, u, size, scale, factor, out):
+    """λ (m,) and u (n, k), roughly: in place. Returns the steps taken.
 
     size (B,): A's largest diagonal entry of each block; scale: the worst free w, m/s. factor, out: room.
     """
@@ -55,17 +60,21 @@ def start_inside(rows, M, free, λ, u, size, scale, factor, out):
     m = len(unit)
     inside = Inside(
         np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m), np.zeros(m),
-        np.zeros(len(size)), np.zeros((4, 3)),
+        np.zeros(m), np.zeros((m, 3)), np.zeros(len(size)), np.zeros((4, 3)),
     )  # fmt: skip
     right, ρ, cones = np.empty_like(u), np.ones(len(size)), begin(rows, unit, size, scale, inside, out)
     for i in range(len(u)):
         for a in range(u.shape[1]):
             u[i, a] = free[i, a]
-    steps = 0
+    steps, best, best_u, since = 0, np.inf, u.copy(), 0
     while steps < MOST_STEPS:
-        off = look(rows, M, free, u, inside, out.gradient, unit)
+        off = look(rows, M, free, coulomb, u, inside, out.gradient, unit)
         total, worst = scale_all(rows, size, inside, out.slope)
-        if max(off, np.sqrt(worst)) <= CLOSE * scale:
+        off, since = max(off, np.sqrt(worst)), since + 1
+        if off < best:
+            keep(unit, inside.z, u, λ, best_u)
+            best, since = off, since if off > 0.9 * best else 0
+        if off <= CLOSE * scale or since == PATIENCE:
             break
         fill_matrix(rows, M, ρ, out, factor)
         if not factorise(factor.blocks):
@@ -75,16 +84,26 @@ def start_inside(rows, M, free, λ, u, size, scale, factor, out):
             aim_all(rows, inside, (1 - way) ** 3 * total / cones, correcting == 1)
             pull(rows, out, inside, right)
             solve(factor.blocks, right, factor.move)
-            way = move_along(rows, out.slope, factor.move, inside)
+            way = move_along(rows, factor.move, inside)
         if not way > STUCK:  # as far as rounding lets it come
             break
         advance(min(1.0, BACK * way), factor.move, u, inside)
         steps += 1
-    for i in range(m):
-        λ[i] = unit[i] * inside.z[i]
-    for q in range(len(size)):
-        factor.made[q] = -1
+    for i in range(len(u)):
+        for a in range(u.shape[1]):
+            u[i, a] = best_u[i, a]
+    forget(factor)
     return steps
+
+
+@inner
+def keep(unit, z, u, λ, best_u):
+    """λ and u as they are now."""
+    for r in range(len(λ)):
+        λ[r] = unit[r] * z[r]
+    for i in range(len(u)):
+        for a in range(u.shape[1]):
+            best_u[i, a] = u[i, a]
 
 
 @inner_apart
@@ -101,18 +120,21 @@ def begin(rows, unit, size, scale, inside, out):
 
 @inner_apart
 def scale_all(rows, size, inside, slope):
-    """W of each cone, and W⁻² into slope. Returns Σ s·z, and the worst of them as a velocity squared."""
+    """W of each cone, and W⁻² Φ′ into slope. Returns Σ s·z, and the worst of them as a velocity squared."""
     total, worst = 0.0, 0.0
     for q in range(len(size)):
         first, end = rows.block[q], rows.block[q + 1]
         if inside.θ[q] < 0:
-            slope[first, 0] = 1 / (FIRM * size[q])
+            inside.square[first, 0] = slope[first, 0] = 1 / (FIRM * size[q])
             continue
         s, z, turn = inside.s[first:end], inside.z[first:end], inside.turn[first:end]
         product = dot(s, z)
         total, worst = total + product, max(worst, product * size[q])
         inside.θ[q] = find_scaling(s, z, turn)
-        put_inverse_square(turn, inside.θ[q], slope[first:end])
+        put_inverse_square(turn, inside.θ[q], inside.square[first:end])
+        for r in range(first, end):
+            for a in range(end - first):
+                slope[r, a] = inside.square[r, a] + inside.square[r, 0] * inside.t[first + a]
     return total, worst
 
 
@@ -155,24 +177,31 @@ def make_round(rows):
 
 
 @inner_apart
-def look(rows, M, free, u, inside, gradient, unit):
-    """p = J u + c − s, and the gradient M (u − free) − Jᵀ z. Returns the worst of both, as a velocity."""
-    worst, k, p = 0.0, u.shape[1], inside.p
+def look(rows, M, free, coulomb, u, inside, gradient, unit):
+    """p = Φ(J u + c) − s, t, and the gradient M (u − free) − Jᵀ z. Returns the worst of p and it, m/s."""
+    worst, k, p, t = 0.0, u.shape[1], inside.p, inside.t
     for i in range(len(u)):
         for a in range(k):
             total = 0.0
             for b in range(k):
                 total += M[i, a, b] * (u[i, b] - free[i, b])
             gradient[i, a] = total
-    for r in range(len(p)):
-        p[r] = rows.c[r] - inside.s[r]
-        for side in range(2):
-            i = rows.bodies[r, side]
-            if i >= 0:
-                p[r] += dot(rows.J[r, side], u[i])
-                for a in range(k):
-                    gradient[i, a] -= rows.J[r, side, a] * inside.z[r]
-        worst = max(worst, abs(p[r]) / unit[r])
+    for q in range(len(rows.μ)):
+        first, end = rows.block[q], rows.block[q + 1]
+        for r in range(first, end):
+            p[r] = rows.c[r]
+            for side in range(2):
+                i = rows.bodies[r, side]
+                if i >= 0:
+                    p[r] += dot(rows.J[r, side], u[i])
+                    for a in range(k):
+                        gradient[i, a] -= rows.J[r, side, a] * inside.z[r]
+        slip = along(rows, q, p) if coulomb else 0.0
+        p[first] += slip
+        for r in range(first, end):
+            t[r] = p[r] / slip if r > first and slip > 0 else 0.0
+            p[r] -= inside.s[r]
+            worst = max(worst, abs(p[r]) / unit[r])
     for i in range(len(u)):
         for a in range(k):
             worst = max(worst, abs(gradient[i, a]) / M[i, a, a])
@@ -180,11 +209,11 @@ def look(rows, M, free, u, inside, gradient, unit):
 
 
 @inner
-def weighted(rows, slope, q, r, x):
+def weighted(rows, square, q, r, x):
     """Entry of row r of block q of W⁻² x."""
     total, first = 0.0, rows.block[q]
     for b in range(first, rows.block[q + 1]):
-        total += slope[r, b - first] * x[b]
+        total += square[r, b - first] * x[b]
     return total
 
 
@@ -196,7 +225,7 @@ def pull(rows, out, inside, right):
             right[i, a] = -out.gradient[i, a]
     for q in range(len(rows.μ)):
         for c in range(rows.block[q], rows.block[q + 1]):
-            force = inside.r[c] - weighted(rows, out.slope, q, c, inside.p)
+            force = inside.r[c] - weighted(rows, inside.square, q, c, inside.p)
             for side in range(2):
                 i = rows.bodies[c, side]
                 if i >= 0:
@@ -205,7 +234,7 @@ def pull(rows, out, inside, right):
 
 
 @inner_apart
-def move_along(rows, slope, du, inside):
+def move_along(rows, du, inside):
     """ds and dz that go with du. Returns how far to go, at most 1, until the first cone ends: 0 if that is
     not finite.
     """
@@ -213,13 +242,17 @@ def move_along(rows, slope, du, inside):
     for q in range(len(rows.μ)):
         first, end = rows.block[q], rows.block[q + 1]
         for c in range(first, end):
-            ds[c] = inside.p[c]
+            ds[c] = 0.0
             for side in range(2):
                 i = rows.bodies[c, side]
                 if i >= 0:
                     ds[c] += dot(rows.J[c, side], du[i])
+            if c > first:
+                ds[first] += inside.t[c] * ds[c]
         for c in range(first, end):
-            dz[c] = inside.r[c] - weighted(rows, slope, q, c, ds)
+            ds[c] += inside.p[c]
+        for c in range(first, end):
+            dz[c] = inside.r[c] - weighted(rows, inside.square, q, c, ds)
             if not abs(ds[c]) + abs(dz[c]) < np.inf:
                 return 0.0
         if inside.θ[q] < 0:

@@ -11,40 +11,56 @@ A weight ρ = 1/(ε A_cc) makes each pass shrink the error by ε/(ε + σ), σ t
 scaled A that is not 0: few passes, however heavy the top of a stack is.
 
 Coulomb's law (``ncp``) is not the gradient of anything, but becomes convex with a *shift* μ|w_t| added to
-w_n, taken from the pass before. With what sticks it is 0, and nothing is lost. Where passes stop helping, the
-other way is taken: friction's *limit* μ λ_n from the pass before (see ``coulomb``); where that stops, sweeps
-over the contacts (``contact_sweeps``), and the shift again from there. Where a pass has too many states to
-try, it begins from inside the cones (``cone_interior``), and the shifts are mixed from then on (``shift``).
+w_n. A pass takes it from the pass before, and is solved so, safely; from there it lets the shift *follow* w
+(see ``augmented``), which makes of its error the square in each step, and keeps that if it is nearer to the law.
+Where passes don't halve the error, or have too many states to try, they begin again: from inside the cones
+(``cone_interior``); from where passes with friction's *limit* lead (``coulomb``); and at last from where
+sweeps over the contacts lead (``contact_sweeps``).
 
 Slides S10, S14; lectures/08_newton_lcp.md. Source: Rockafellar, Math. Oper. Res. 1 (1976) 97 (augmented
 Lagrangian as proximal point method); Qi & Sun, Math. Programming 58 (1993) 353 (semismooth Newton); De
 Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225 (the shift).
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
-from ..compiled import compiled, compiled_apart, inner
+from ..compiled import compiled, compiled_apart, inner_apart
 from ..factored import add_rows
-from .augmented import ContactRows, dot, make_law, make_pass
+from .augmented import ContactRows, Law, Pass, dot, evaluate, make_law, make_pass
 from .cone_interior import start_inside
 from .contact_sweeps import fill_moves, sweep_contacts, velocity
-from .coulomb import begin_shift, renew_limit, renew_shift
+from .coulomb import breach, no_limit, renew_limit, renew_shift, worst_change
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
-from .shift import make_memory, mix_shifts
-from .smooth_pass import make_factor, solve_smooth
+from .smooth_pass import Factor, copy_all, make_factor, solve_smooth, worst_rate
 from .solution import MAX_ITERATIONS, SOLVED, finish
 from .symmetry import why_no_box, why_no_cone
 from .velocity_form import velocity_form
 
 __all__ = ["ContactRows", "cone_newton", "cone_newton_kernel"]
 
-NEAR, SMALLEST = 1e-6, 1e-10  # ε at first, and where passes shrink the error too slowly
-NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # w's rounding makes 1e-16/ε in λ: to polish, a larger ε
-NEAR_LIMIT, LARGEST, QUICKEST = 1e-4, 1.0, 1e-12  # where λ sets the limits, and so its rounding counts
-WILD = 10.0  # times the worst free w: limits that lead astray
-PATIENCE, SWEEPS = 6, 32  # passes that may not halve the error (see ``patience``); sweeps at first
-FEW, MANY, FROM_INSIDE = 12, 50, 1e-4  # Newton steps in a pass; ε after more than a few of them
+NEAR = 1e-4  # ε at first
+WEIGHTS = (1e-6, 1e-8, 1e-10, 1e-4, 1e-2)  # and then: smaller where passes are slow, larger to polish, for
+POLISH = (1e-4, 1e-3, 1e-2, 1e-6, 1e-8, 1e-4, 1e-2)  # w's rounding is 1e-16/ε of λ; and from near the answer
+FEW, MANY = 12, 25  # Newton steps in a pass, from a start that may be far, and from inside
+LIMITED = (1e-8, 1e-10, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-4)  # of passes with limits: λ must get somewhere
+SWEEPS, MOST_STARTS = 8, 6  # sweeps at first, then twice as many each time; how often passes begin again
+NEARLY = 1e-9  # an error from which beginning again leads nowhere: it is rounding
+NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # to polish λ itself, as ``problem.residual`` asks
+ROOM = 1e-3  # of the tolerance, for which no shift need follow
+
+
+class Room(NamedTuple):
+    """What the passes compute in."""
+
+    out: Pass
+    trial: Pass
+    law: Law
+    factor: Factor
+    size: np.ndarray  # (B,): A_cc
+    kept: np.ndarray  # (n, k)
 
 
 @compiled_apart
@@ -52,129 +68,107 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
     """u (n, k) and λ (m,), which holds the start and is changed in place. M (n, k, k), free (n, k).
 
     softness (B,): γ of each block's first row, which gives way: w = J u + c + γ λ. Returns (u, passes,
-    error): the error is the worst violation of w by λ's change in the last pass, m/s, over the worst free
-    one; history gets that of each pass, as far as it is long. near: ε to begin with.
+    error): how far they are from the law (``coulomb.breach``) and from M (u − free) = Jᵀ λ, m/s, over the worst
+    free |w|; history gets that of each pass, as far as it is long. near: ε to begin with.
     """
     (n, k), blocks = free.shape, len(rows.μ)
-    out, trial, law = make_pass(rows, n, k), make_pass(rows, n, k), make_law(blocks)
-    factor, moves, size = make_factor(rows, n, k), np.empty(rows.J.shape), np.empty(blocks)
+    room = Room(
+        make_pass(rows, n, k), make_pass(rows, n, k), make_law(blocks), make_factor(rows, n, k),
+        np.empty(blocks), np.empty((n, k)),
+    )  # fmt: skip
+    moves, u = np.empty(rows.J.shape), free.copy()
     fill_moves(rows, M, moves)
-    u, scale = free.copy(), block_sizes(rows, moves, free, size)
+    scale = block_sizes(rows, moves, free, room.size)
     if scale == 0:
         λ[:] = 0
         return u, 0, 0.0
     add_rows(rows.bodies, moves, λ, u)
-    wanted = tolerance * scale
-    begin_law(rows, u, coulomb, law)
-    ε, error, drift, limits, best, since, sweeps = near, np.inf, np.inf, False, np.inf, 0, SWEEPS
-    raised, may_rest, kept, kept_error = False, True, λ.copy(), np.inf
-    most, memory = FEW, make_memory(blocks)
+    if coulomb:
+        renew_shift(rows, velocities(rows, u), room.law)
+    best_λ, best_u, best = λ.copy(), u.copy(), np.inf
+    ε, weight, start, most, last = near, -1, 0, FEW, np.inf
     for passes in range(max_iterations):
-        weigh(ε, size, softness, law, factor)
-        allowed = MANY if limits else most
-        steps = solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * wanted, out, trial, allowed)
-        if steps == FEW == allowed:  # too many states to try: come from inside the cones
-            ε, drift, most = FROM_INSIDE, np.inf, MANY
-            start_inside(rows, M, free, λ, u, size, scale, factor, out)
-            begin_law(rows, u, coulomb, law)
-            weigh(ε, size, softness, law, factor)
-            solve_smooth(rows, M, free, λ, law, factor, u, 0.1 * wanted, out, trial, most)
-        last, before, drift, changed = error, drift, renew(rows, out, λ, law.ρ) / scale, 0.0
-        if coulomb:
-            changed = renew_law(rows, λ, u, out.w, size, drift * scale, limits, most, memory, law) / scale
-        error = max(drift, changed)
+        steps = solve_pass(rows, M, free, softness, coulomb, λ, u, ε, room, tolerance * scale, most)
+        error = take_over(rows, M, softness, coulomb, λ, room) / scale
         if passes < len(history):
             history[passes] = error
+        if error < best:
+            best_λ[:], best_u[:], best = λ, u, error
         if error <= tolerance:
             return u, passes + 1, error
-        since = 0 if error < 0.5 * best else since + 1
-        best = error if limits and error > 100 * last else min(best, error)  # λ has got somewhere else
-        if coulomb and (since >= patience(limits, most) or (limits and not error < WILD)):  # the other way
-            if limits:
-                sweep_from_best(rows, moves, softness, free, λ, u, kept, error <= kept_error, wanted, sweeps)
-                begin_law(rows, u, coulomb, law)
-                sweeps *= 2
-            else:
-                kept_error = keep_better(λ, error, kept, kept_error)
-                renew_limit(rows, λ, size, law)
-            limits, raised, may_rest, best, since = not limits, False, True, np.inf, 0
-            error, drift, ε = np.inf, np.inf, NEAR_LIMIT if limits else near
-        elif limits and raised:
-            raised = False  # what ε just left over shows in this pass's error
-        else:
-            may_rest = may_rest and (drift <= tolerance or ε <= NEAR_LIMIT)
-            rests, keeps = may_rest and drift <= tolerance, drift <= max(0.25 * before, changed)
-            new = limit_weight(ε, error, last, rests) if limits else shift_weight(ε, keeps or most == MANY)
-            raised, ε = new > ε, new
-    sweep_from_best(rows, moves, softness, free, λ, u, kept, error <= kept_error, wanted, 0)
-    return u, max_iterations, min(error, kept_error)
+        weight += 0 if error < 0.5 * last else 1
+        last = min(error, last)
+        if weight < (len(WEIGHTS) if start == 0 else len(POLISH)) and not (steps == FEW == most):
+            if weight >= 0:
+                ε = WEIGHTS[weight] if start == 0 else POLISH[weight]
+            continue
+        if start == MOST_STARTS or (start > 1 and best <= NEARLY):
+            break
+        λ[:], u[:] = best_λ, best_u
+        begin_again(start, rows, M, free, moves, softness, coulomb, λ, u, tolerance * scale, scale, room)
+        ε, weight, start, most, last = POLISH[0], 0, start + 1, MANY, np.inf
+    λ[:] = best_λ
+    return best_u, passes + 1, best
 
 
-@compiled(door=False)
-def begin_law(rows, u, coulomb, law):
-    """As ``begin_shift``, where the law is Coulomb's."""
-    if coulomb:
-        begin_shift(rows, u, law)
-
-
-@compiled(door=False)
-def renew_law(rows, λ, u, w, size, drift, limits, most, memory, law):
-    """What the next pass takes from this one. Returns the worst change, m/s."""
-    if limits:
-        return renew_limit(rows, λ, size, law)
-    return mix_shifts(rows, w, law.shift, memory, drift) if most == MANY else renew_shift(rows, u, law)
-
-
-@inner
-def shift_weight(ε, keeps):
-    """The next ε: the same, or a smaller one where passes shrink the error too slowly."""
-    return ε if keeps or ε <= SMALLEST else 0.01 * ε
-
-
-@inner
-def patience(limits, most):
-    """How many passes may not halve the error: shifts that are mixed take their time."""
-    if limits:
-        return 2 * PATIENCE
-    return PATIENCE if most == FEW else 4 * PATIENCE
-
-
-@compiled
-def sweep_from_best(rows, moves, softness, free, λ, u, kept, better, tolerance, sweeps):
-    """So many sweeps over the contacts from λ, or from the one kept, unless λ is better; λ and u in place."""
-    if not better:
-        λ[:] = kept
-    u[:] = free
-    add_rows(rows.bodies, moves, λ, u)
-    sweep_contacts(rows, moves, softness, True, λ, u, tolerance, sweeps)
-
-
-@compiled
-def keep_better(λ, error, kept, kept_error):
-    """Keep λ if its error is smaller; returns the error of what is kept."""
-    if error < kept_error:
-        kept[:] = λ
-    return min(error, kept_error)
-
-
-@inner
-def limit_weight(ε, error, last, rests):
-    """The next ε where friction has limits, from how the error went. Where λ creeps on, long steps get it
-    over with; where w is right whatever λ is, short ones let it rest.
-    """
-    if error < 0.5 * last:
-        return max(ε, NEAR_LIMIT)
-    return min(100 * ε, LARGEST) if rests else max(1e-4 * ε, QUICKEST)
-
-
-@inner
-def weigh(ε, size, softness, law, factor):
-    """ρ = 1/(ε A_cc), what gives way for it; and the factor was made for another."""
+@inner_apart
+def solve_pass(rows, M, free, softness, coulomb, λ, u, ε, room, wanted, most):
+    """u for these λ, and with it λ̂ in room.out. Returns how many Newton steps its safe part took."""
+    out, trial, law, factor, size, kept = room
     for q in range(len(size)):
         ρ = 1 / (ε * size[q])
         if ρ != law.ρ[q]:
             factor.made[q] = -1
         law.ρ[q], law.give[q] = ρ, 1 + ρ * softness[q]
+    steps = solve_smooth(rows, M, free, λ, law, False, factor, u, 0.1 * wanted, out, trial, most)
+    if not coulomb or worst_change(rows, out.w, law) <= ROOM * wanted:
+        return steps
+    copy_all(u, kept)
+    held = max(breach(rows, size, softness, True, out.λ, out.w), worst_rate(M, out.gradient))
+    solve_smooth(rows, M, free, λ, law, True, factor, u, 0.1 * wanted, out, trial, FEW)
+    if not max(breach(rows, size, softness, True, out.λ, out.w), worst_rate(M, out.gradient)) < held:
+        copy_all(kept, u)
+        evaluate(rows, M, free, λ, law, False, u, out)
+    return steps
+
+
+@compiled_apart
+def begin_again(start, rows, M, free, moves, softness, coulomb, λ, u, wanted, scale, room):
+    """Another λ and u to begin with, from the best so far: in place."""
+    if start == 0 or (start == 2 and coulomb):  # of Coulomb's law itself, then of the convex one
+        start_inside(rows, M, free, coulomb and start == 0, λ, u, room.size, scale, room.factor, room.out)
+    elif start == 1 and coulomb:
+        for ε in LIMITED:
+            renew_limit(rows, λ, room.law)
+            solve_pass(rows, M, free, softness, False, λ, u, ε, room, wanted, MANY)
+            take_over(rows, M, softness, False, λ, room)
+        no_limit(room.law)
+    else:
+        u[:] = free
+        add_rows(rows.bodies, moves, λ, u)
+        sweep_contacts(rows, moves, softness, coulomb, λ, u, wanted, SWEEPS << start)
+    if coulomb:
+        renew_shift(rows, velocities(rows, u), room.law)
+
+
+@inner_apart
+def take_over(rows, M, softness, coulomb, λ, room):
+    """λ ← λ̂, and the shift that belongs to it. Returns the error, m/s."""
+    for r in range(len(λ)):
+        λ[r] = room.out.λ[r]
+    if coulomb:
+        renew_shift(rows, room.out.w, room.law)
+    off = breach(rows, room.size, softness, coulomb, λ, room.out.w)
+    return max(off, worst_rate(M, room.out.gradient))
+
+
+@compiled(door=False)
+def velocities(rows, u):
+    """w = J u + c of all rows (m,)."""
+    w = np.empty(len(rows.c))
+    for r in range(len(w)):
+        w[r] = velocity(rows, r, u)
+    return w
 
 
 @compiled_apart
@@ -191,18 +185,6 @@ def block_sizes(rows, moves, free, size):
             size[q] = max(size[q], diagonal)
             scale = max(scale, abs(velocity(rows, r, free)))
     return scale
-
-
-@inner
-def renew(rows, out, λ, ρ):
-    """λ ← λ̂. Returns the worst change, as a velocity."""
-    worst = 0.0
-    for q in range(len(ρ)):
-        for r in range(rows.block[q], rows.block[q + 1]):
-            change = abs(out.λ[r] - λ[r]) / ρ[q]
-            worst = max(worst, change) if change < np.inf else np.inf  # nan must not pass for 0
-            λ[r] = out.λ[r]
-    return worst
 
 
 def cone_newton(problem, start=None, tolerance=1e-10, max_iterations=1000):
@@ -226,16 +208,16 @@ def cone_newton(problem, start=None, tolerance=1e-10, max_iterations=1000):
         return unsuitable(problem, λ, tolerance, reason)
     coulomb, done, errors = getattr(problem, "law", "") == "ncp", 0, np.empty(most)
     rows, M, softness = form
-    free, first = np.zeros(M.shape[:2]), problem.residual(λ)
+    free, first, left = np.zeros(M.shape[:2]), problem.residual(λ), most
     with np.errstate(all="ignore"):
         for near in NEARER:
-            if done == most or problem.residual(λ) <= tolerance or not np.isfinite(λ).all():
-                break
-            left = most - done if done == 0 else min(most - done, 5)
             _, passes, _ = cone_newton_kernel(
                 rows, M, free, softness, coulomb, λ, tolerance, left, errors[done:], near
             )
             done += passes
+            left = min(most - done, 5)
+            if not left or problem.residual(λ) <= tolerance or not np.isfinite(λ).all():
+                break
     history = np.full(done + 1, np.nan)
     history[0] = first
     code = MAX_ITERATIONS if done == most else SOLVED

@@ -1,4 +1,4 @@
-"""Coulomb's law by convex ones, one after another: what a pass takes from the pass before.
+"""Coulomb's law by convex ones: what a pass takes from the pass before; and how far λ and w are from the law.
 
 Coulomb's law is not the gradient of anything, but becomes convex once one of two numbers a contact is given:
 
@@ -11,62 +11,98 @@ is in the way. It grows in each pass by what the four gaps lack of a plane, say 
 passes. The limit leaves w_n as it is, and λ_n moves on until a corner lifts. Where the gaps are in a plane,
 each way to share is right, and has its own friction and its own velocities: Coulomb's law has many solutions.
 
+The error of a contact is how far λ is from P(λ − Φ(w)/A_cc), times A_cc: a velocity. Φ adds μ|w_t| to w_n for
+Coulomb's law, and γ λ_n for what gives way; P is the projection on the cone, or on a row's bounds. It is 0 just
+where the law holds, and about |w| where a contact that sticks still moves.
+
 Slides S10, S14; lectures/08_newton_lcp.md. Source: De Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225;
 Haslinger, Math. Methods Appl. Sci. 5 (1983) 422 (fixed point of the limit).
 """
 
 import numpy as np
 
-from ..compiled import compiled
-from .contact_sweeps import velocity
+from ..compiled import inner, inner_apart
 
 
-@compiled
-def begin_shift(rows, u, law):
-    """The shift that belongs to u, no limit, and nothing known of how the shift answers."""
-    for q in range(len(rows.μ)):
-        law.limit[q], law.answer[q, 0], law.answer[q, 1] = -1.0, np.inf, 0.0
-        law.shift[q] = wanted_shift(rows, q, u)
-
-
-@compiled
-def renew_shift(rows, u, law):
-    """The shift ← μ|w_t|, or further. Returns the worst change that u asks for, a velocity.
-
-    μ|w_t| answers to a change of the shift, by μ²/(1 + μ²) of it where A is a multiple of 1. Each contact's
-    last two answers tell by how much, and its shift goes where it answers to itself (the secant method).
-    """
+@inner
+def renew_shift(rows, w, law):
+    """The shift ← μ|w_t|. Returns the worst change, m/s."""
     worst = 0.0
     for q in range(len(rows.μ)):
-        if rows.μ[q] <= 0:
-            continue
-        new, old = wanted_shift(rows, q, u), law.shift[q]
-        change, changed = new - old, old - law.answer[q, 0]
-        worst = max(worst, abs(change))
-        share = (new - law.answer[q, 1]) / changed if abs(changed) > 1e-12 * abs(new) else 0.0
-        law.answer[q, 0], law.answer[q, 1] = old, new
-        law.shift[q] = max(0.0, old + change / (1 - min(max(share, -1.0), 0.8)))
+        if rows.μ[q] > 0:
+            new = rows.μ[q] * along(rows, q, w)
+            worst = max(worst, abs(new - law.shift[q]))
+            law.shift[q] = new
     return worst
 
 
-@compiled
-def wanted_shift(rows, q, u):
-    """μ|w_t| of contact q, m/s."""
-    along = 0.0
-    for r in range(rows.block[q] + 1, rows.block[q + 1]):
-        along += velocity(rows, r, u) ** 2
-    return max(rows.μ[q], 0.0) * np.sqrt(along)
-
-
-@compiled
-def renew_limit(rows, λ, size, law):
-    """The limit ← μ λ_n, and no shift. Returns the worst change, a velocity: times A's diagonal, size."""
-    worst = 0.0
+@inner
+def renew_limit(rows, λ, law):
+    """The limit ← μ λ_n, and no shift."""
     for q in range(len(rows.μ)):
         law.shift[q] = 0.0
-        if rows.μ[q] <= 0:
-            continue
-        new = rows.μ[q] * λ[rows.block[q]]
-        worst = max(worst, abs(new - law.limit[q]) * size[q])
-        law.limit[q] = new
+        if rows.μ[q] > 0:
+            law.limit[q] = rows.μ[q] * max(λ[rows.block[q]], 0.0)
+
+
+@inner
+def no_limit(law):
+    """The cone again."""
+    for q in range(len(law.limit)):
+        law.limit[q] = -1.0
+
+
+@inner
+def worst_change(rows, w, law):
+    """By how much the shift that w asks for differs at the most from the one that was used, m/s."""
+    worst = 0.0
+    for q in range(len(rows.μ)):
+        if rows.μ[q] > 0:
+            worst = max(worst, abs(rows.μ[q] * along(rows, q, w) - law.shift[q]))
     return worst
+
+
+@inner
+def along(rows, q, w):
+    """|w_t| of contact q, m/s."""
+    total = 0.0
+    for r in range(rows.block[q] + 1, rows.block[q + 1]):
+        total += w[r] * w[r]
+    return np.sqrt(total)
+
+
+@inner_apart
+def breach(rows, size, softness, coulomb, λ, w):
+    """The worst error of all blocks, m/s. size (B,): A_cc."""
+    worst = 0.0
+    for q in range(len(rows.μ)):
+        n, μ, a = rows.block[q], rows.μ[q], 1 / size[q]
+        pull = λ[n] - a * (w[n] + softness[q] * λ[n])
+        if μ < 0:
+            off = abs(min(max(pull, rows.lower[n]), rows.upper[n]) - λ[n])
+        else:
+            off = off_cone(rows, q, pull - a * μ * along(rows, q, w) if coulomb else pull, a, λ, w)
+        off *= size[q]
+        worst = max(worst, off) if off < np.inf else np.inf  # nan must not pass for 0
+    return worst
+
+
+@inner
+def off_cone(rows, q, pull, a, λ, w):
+    """How far the projection of (pull, λ_t − a w_t) on the cone of contact q is from its λ."""
+    n, end, μ = rows.block[q], rows.block[q + 1], rows.μ[q]
+    tangential = 0.0
+    for r in range(n + 1, end):
+        tangential += (λ[r] - a * w[r]) ** 2
+    tangential = np.sqrt(tangential)
+    if tangential <= μ * pull:
+        to, share = pull, 1.0
+    elif μ * tangential <= -pull:
+        to, share = 0.0, 0.0
+    else:
+        to = (pull + μ * tangential) / (1 + μ * μ)
+        share = μ * to / tangential
+    off = (to - λ[n]) ** 2
+    for r in range(n + 1, end):
+        off += (share * (λ[r] - a * w[r]) - λ[r]) ** 2
+    return np.sqrt(off)

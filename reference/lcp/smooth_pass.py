@@ -2,7 +2,8 @@
 
 The matrix M + ρ Jᵀ P′ J has one block a body, not one a contact, and stays regular where contacts are
 redundant. It changes only with what sticks, slides or parts; where nothing of that changes, its factor
-serves again.
+serves again. Step halving asks that the augmented Lagrangian falls; where the shift follows there is none, and
+what is left of the equation of motion must fall instead: that may fail far from the answer.
 
 Slides S14; lectures/08_newton_lcp.md. Source: Qi & Sun, Math. Programming 58 (1993) 353 (semismooth Newton).
 """
@@ -13,9 +14,9 @@ import numpy as np
 
 from ..compiled import compiled, inner, inner_apart
 from .augmented import ALONE, OPEN, SLIDES, dot, evaluate
-from .block_cholesky import BlockFactor, add_block, clear, factorise, make_block_factor, solve
+from .block_lu import BlockFactor, add_block, clear, factorise, make_block_factor, solve
 
-MOST_HALVINGS = 30
+MOST_HALVINGS, ROUNDING = 30, 1e4  # times the tolerance: what rounding may be the reason of
 
 
 class Factor(NamedTuple):
@@ -36,38 +37,51 @@ def make_factor(rows, n, k):
 
 
 @inner_apart
-def solve_smooth(rows, M, free, λ, law, factor, u, tolerance, out, trial, most):
+def solve_smooth(rows, M, free, λ, law, follows, factor, u, tolerance, out, trial, most):
     """Newton's method for one pass, with step halving: u in place, what ``evaluate`` finds there in out.
 
-    Returns how many steps it took: ``most`` if they were not enough.
+    follows: the shift follows w. Returns how many steps it took: ``most`` if they were not enough.
     """
-    value = evaluate(rows, M, free, λ, law, u, out)
+    value = evaluate(rows, M, free, λ, law, follows, u, out)
     move, tried = factor.move, factor.tried
     rest, before, whole = worst_rate(M, out.gradient), np.inf, False
     for step in range(most):
-        fresh = stands_for(rows, factor.made, out.state)
-        if rest <= tolerance or (whole and fresh and rest > 0.5 * before):  # good, or as rounding lets it be
+        fresh = not follows and stands_for(rows, factor.made, out.state)
+        slow = whole and rest > 0.5 * before
+        if rest <= tolerance or (slow and (fresh or rest <= ROUNDING * tolerance)):  # as rounding lets it be
             return step
         if not fresh:
             fill_matrix(rows, M, law.ρ, out, factor)
-            factorise(factor.blocks)
+            if not factorise(factor.blocks):
+                return most
+            if follows:
+                forget(factor)
         solve(factor.blocks, out.gradient, move)
-        downhill, length, new = 0.0, 1.0, np.inf
+        downhill, length, new, left = 0.0, 1.0, np.inf, np.inf
         for i in range(len(u)):
             downhill -= dot(out.gradient[i], move[i])
         for _ in range(MOST_HALVINGS):
             for i in range(len(u)):
                 for a in range(u.shape[1]):
                     tried[i, a] = u[i, a] - length * move[i, a]
-            new = evaluate(rows, M, free, λ, law, tried, trial)
-            if new <= value + 1e-4 * length * downhill + 1e-13 * abs(value):
+            new = evaluate(rows, M, free, λ, law, follows, tried, trial)
+            left = worst_rate(M, trial.gradient)
+            if left < rest if follows else new <= value + 1e-4 * length * downhill + 1e-13 * abs(value):
                 break
             length *= 0.5
-        whole, value, before = length == 1.0, new, rest
+        if follows and not left < rest:
+            return most
+        whole, value, before, rest = length == 1.0, new, rest, left
         copy_all(tried, u)
         copy_pass(trial, out)
-        rest = worst_rate(M, out.gradient)
     return most
+
+
+@inner
+def forget(factor):
+    """The factor is none of states alone."""
+    for q in range(len(factor.made)):
+        factor.made[q] = -1
 
 
 @inner
@@ -127,14 +141,14 @@ def fill_matrix(rows, M, ρ, out, factor):
         first, end = rows.block[q], rows.block[q + 1]
         for r in range(first, end):
             for side in range(2):
-                i = rows.bodies[r, side]
-                if i < 0:
+                j = rows.bodies[r, side]
+                if j < 0:
                     continue
                 for a in range(k):
                     weighted[a] = 0.0
                     for s in range(first, end):
                         weighted[a] += out.slope[r, s - first] * rows.J[s, side, a]
                 for other in range(2):
-                    j = rows.bodies[r, other]
-                    if j >= 0:
-                        add_block(factor.blocks, i, j, weighted, rows.J[r, other], ρ[q])
+                    i = rows.bodies[r, other]
+                    if i >= 0:
+                        add_block(factor.blocks, i, j, rows.J[r, other], weighted, ρ[q])
