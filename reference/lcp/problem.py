@@ -42,6 +42,12 @@ class _Problem:
         λ = np.asarray(λ, dtype=float)
         return relative(self._merit(λ, self.w(λ) if w is None else w), self.scale)
 
+    def rounding(self, λ):
+        """How far rounding may have moved each w_i (n,): about ε (|A| |λ| + |b|)_i, since that is summed up."""
+        with np.errstate(all="ignore"):
+            sizes = self.A.sizes(λ) if isinstance(self.A, Factored) else abs(self.A) @ np.abs(λ)
+            return np.finfo(float).eps * (sizes + np.abs(self.b))
+
     zero_rows = ()
 
     @cached_property
