@@ -87,43 +87,34 @@ def gaps(A, b, lower, upper, friction, λ):
     return r, w, d
 
 
-def scale(A, b, lower, upper, friction):
-    """max |r_i| of λ⁰, what every residual is divided by."""
-    return float(
-        max(map(abs, gaps(A, b, lower, upper, friction, origin(lower, upper, friction))[0]), default=0)
-    )
-
-
-def largest_gap(A, b, lower, upper, friction, tolerance=1e-10, size=None):
-    """What max |r_i| of a λ called solved may come to, in exact numbers: from the problem alone, whatever λ is.
+def largest_gap(A, b, lower, upper, friction, tolerance=1e-10):
+    """What max |r_i| of a λ called solved may come to, in exact numbers; no more for large λ than for small.
 
     A solver sees w_i only to rounding: of n + 1 products summed up, each off by 2⁻⁵³, so by (n + 1)/2 times
     ε (|A||λ| + |b|)_i at most. It promises that ε (…) hides no more than the tolerance: a λ so large that it
-    would must not be called solved. So the tolerance, and (n + 1)/2 times the same. Besides, a residual is
-    one beside that of λ⁰, which rounding moves, too.
+    would must not be called solved, unless it hides at most twice as much as at λ⁰ itself. So the tolerance
+    and (n + 1)/2 times the same, times the size of r(λ⁰); and twice what rounding may come to at λ⁰.
     """
     start = origin(lower, upper, friction)
     r, _, d = gaps(A, b, lower, upper, friction, start)
-    size = float(max(map(abs, r), default=0)) if size is None else size
+    size = float(max(map(abs, r), default=0))
     rounding = (len(b) + 1) * 2.0**-53 * (np.abs(A) @ np.abs(start) + np.abs(b)) / np.array(d, dtype=float)
-    return tolerance * size * (1 + (len(b) + 1) / 2) + rounding.max(initial=0)
+    return tolerance * size * (1 + (len(b) + 1) / 2) + 2 * rounding.max(initial=0)
 
 
-def is_answer(A, b, lower, upper, friction, λ, tolerance=1e-10, size=None):
-    """Whether λ solves it: in exact numbers no |r_i| is above ``largest_gap``; size: the scale, if known.
+def is_answer(A, b, lower, upper, friction, λ, most=None):
+    """Whether λ solves it: in exact numbers no |r_i| is above ``most``, by default ``largest_gap``.
 
     A row of zeros has no d to make a length of w_i = b_i: there λ_i must be as near to its very bound.
     """
     if not np.isfinite(λ).all():
         return False
-    size = scale(A, b, lower, upper, friction) if size is None else size
+    most = largest_gap(A, b, lower, upper, friction) if most is None else most
     r, _, _ = gaps(A, b, lower, upper, friction, λ)
-    near = max(map(abs, r), default=0) <= largest_gap(A, b, lower, upper, friction, tolerance, size)
     low, high = limits(lower, upper, friction, λ)
     for i in np.flatnonzero(~np.abs(A).any(axis=1) & (np.array(b) != 0)):
-        bound = low[i] if b[i] > 0 else high[i]
-        near &= bool(abs(λ[i] - bound) <= tolerance * size)
-    return bool(near)
+        r[i] = λ[i] - (low[i] if b[i] > 0 else high[i])
+    return max(map(abs, r), default=0) <= most
 
 
 def farthest(A, b, lower, upper, λ, tolerance=1e-10):

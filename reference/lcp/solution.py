@@ -34,9 +34,9 @@ _UNTRUE = (
     "{tolerance:.2g}: the problem is ill-conditioned, or the tolerance too small for its numbers."
 )
 _UNSEEN = (
-    "The residual looks like {residual:.2g}, but λ is as large as {largest:.2g}: rounding alone leaves w unsure "
-    "by {rounding:.2g}, so that it may as well be {worst:.2g}, and nothing is proved. The problem has no "
-    "solution, or is ill-conditioned, or the method ran off along a line of solutions."
+    "The residual looks like {residual:.2g}, but λ is as large as {largest:.2g}: rounding alone leaves w "
+    "unsure by {rounding:.2g}, which could hide more than the tolerance of {tolerance:.2g}, so it proves "
+    "nothing. The problem has no solution, or is ill-conditioned, or the method ran off along a line of them."
 )
 
 
@@ -81,21 +81,19 @@ def misplaced(problem, λ, tolerance):
     return None, 0
 
 
-def worst_residual(problem, λ, w):
-    """The residual of λ if the rounding of w = A λ + b were all in one direction, and that the worse one.
-
-    Where λ⁰ solves exactly there is nothing to compare rounding with, and only what solves exactly is
-    taken: then it is the residual itself.
-    """
-    if problem.scale == 0:
-        return problem.residual(λ, w)
+def worst_merit(problem, λ, w):
+    """The merit of λ if the rounding of w = A λ + b were all in one direction, and that the worse one."""
     off = problem.rounding(λ)
-    return max(problem.residual(λ, w + off), problem.residual(λ, w - off))
+    return max(problem.merit(λ, w + off), problem.merit(λ, w - off))
 
 
 def is_unseen(problem, λ, w, tolerance):
-    """Whether rounding of w could hide that λ, whose residual is within the tolerance, is no solution."""
-    return not worst_residual(problem, λ, w) <= tolerance + max(tolerance, HIDDEN)
+    """Whether rounding of w could hide that λ, whose residual is within the tolerance, is no solution.
+
+    It may always hide what is small beside the merit of λ⁰, or what it hides there, since λ⁰ is given.
+    """
+    worst, small = worst_merit(problem, λ, w), (tolerance + max(tolerance, HIDDEN)) * problem.scale
+    return not (worst <= small or worst <= small + 2 * problem.noise)
 
 
 def solves(problem, λ, tolerance):
@@ -143,7 +141,7 @@ def finish(
                 residual=residual,
                 largest=np.abs(λ).max(),
                 rounding=problem.rounding(λ).max(),
-                worst=worst_residual(problem, λ, w),
+                tolerance=tolerance,
             )
     elif residual <= tolerance:
         status, certificate = "solved", None
