@@ -20,6 +20,8 @@ from ..factored import Factored
 from . import given
 from .merit import ConeTerms, Terms, cone_merit, merit
 
+EPSILON = np.finfo(float).eps
+
 
 class _Problem:
     """What both kinds share: A, b, their number of rows ``n``, and the one measure of error."""
@@ -46,13 +48,13 @@ class _Problem:
     def rounding(self, λ):
         """How far rounding may have moved each w_i (n,): about ε (|A||λ| + |b|)_i, as that is summed up."""
         with np.errstate(all="ignore"):
-            return np.finfo(float).eps * (sizes(self.A, λ) + np.abs(self.b))
+            return EPSILON * (sizes(self.A, λ) + np.abs(self.b))
 
-    @cached_property
-    def noise(self):
-        """How far rounding may have moved the r_i of λ⁰, at most: a length of λ, as the merit is."""
-        d = np.repeat(self.terms.d, self.n // max(len(self.terms.d), 1))
-        return float((self.rounding(self.origin) / d).max(initial=0))
+    def noise(self, λ):
+        """How far rounding may have moved the r_i of λ (n,), at most: a length of λ, as the merit is."""
+        d = self.terms.d
+        d = d if len(d) == self.n else np.repeat(d, self.n // len(d))
+        return float((self.rounding(λ) / d).max(initial=0))
 
     zero_rows = ()
 

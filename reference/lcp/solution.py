@@ -92,8 +92,11 @@ def is_unseen(problem, λ, w, tolerance):
 
     It may always hide what is small beside the merit of λ⁰, or what it hides there, since λ⁰ is given.
     """
-    worst, small = worst_merit(problem, λ, w), (tolerance + max(tolerance, HIDDEN)) * problem.scale
-    return not (worst <= small or worst <= small + 2 * problem.noise)
+    most = max(tolerance, HIDDEN) * problem.scale
+    if problem.noise(λ) <= most:
+        return False  # nearly always: then there is no need to ask in which rows it matters
+    most += tolerance * problem.scale + 2 * problem.noise(problem.origin)
+    return not worst_merit(problem, λ, w) <= most
 
 
 def solves(problem, λ, tolerance):
