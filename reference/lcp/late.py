@@ -1,7 +1,7 @@
 """Exchanges done late: four in one pass over the tableau, which costs little more than one.
 
 An exchange is a sum: the tableau with row r and column s emptied, plus f gᵀ, where f is the old column s,
-with 1 in row r, and g the new row r. To choose the next pivot takes two columns of the tableau, not all of
+with 1 in row r, and g the new row r. To choose the next pivot takes one column and the constants, not all of
 it. So such products are kept apart until there are four, f_0 g_0ᵀ + … + f_3 g_3ᵀ = Fᵀ G, and then T + Fᵀ G
 is computed at once. What counts is how often T goes through memory, not the sums: at n = 100 a pivot takes
 half as long this way.

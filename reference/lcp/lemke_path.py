@@ -1,8 +1,8 @@
 """Lemke's path, compiled: which row leaves, by the lexicographic rule, and pivot after pivot till z₀ leaves.
 
 Of each vertex's two neighbours one is where the path came from. ``leaving_row`` says where it goes on, and
-that takes two columns of the tableau: so exchanges are done late, four at once (``late``), but at a tie.
-``lemke`` says what the path is good for.
+that takes one column of the tableau and the constants: so exchanges are done late, four at once (``late``),
+but at a tie. ``lemke`` says what the path is good for.
 
 Slides S13; lectures/06_pivoting_lcp.md. Source: Cottle, Pang & Stone, The Linear Complementarity Problem
 (2009), sections 4.4 and 4.9.

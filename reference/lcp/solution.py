@@ -2,8 +2,8 @@
 
 ``finish`` measures the λ that a solver hands in from the problem itself. Whatever the solver believes, a λ
 whose residual is above the tolerance is never called solved. Nor is one that is so large that rounding could
-hide more than that: two rows that ask λ_1 + λ_2 = 0 and λ_1 + λ_2 = 1/3 both look right at λ = (−1e16, 1e16),
-where doubles are 2 apart.
+hide more than that: two rows that ask λ_1 + λ_2 = 0 and 3 λ_1 + 3 λ_2 = 1 may both look right at
+λ = (−7e15, 7e15), where 3 λ is rounded to a multiple of 4.
 
 Slides S13, S14; lectures/06_pivoting_lcp.md.
 """
