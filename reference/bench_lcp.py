@@ -121,14 +121,23 @@ class LcpStudy:
         return "\n".join(lines)
 
     def plot(self, rows, path):
-        """Residual and error of λ against seconds, side by side; who can't treat the problem is left out."""
+        """Residual against seconds, beside it the error of λ, where an answer is known. Who can't treat the
+        problem is left out.
+        """
         from .view.charts import COLOURS, STYLE, plt
 
+        quantities = {"residual": "residual", "error": f"error of {rows[0]['of']}, relative"}
+        if all(row["error"] is None for row in rows):
+            del quantities["error"]
+        many = len(quantities)
         with plt.rc_context(STYLE):
-            figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharex=True, sharey=True)
+            figure, axes = plt.subplots(
+                1, many, figsize=(2 + 4.5 * many, 4.5), sharex=True, sharey=True, squeeze=False
+            )
+        axes = axes[0]
         rows = [row for row in rows if row["status"] != "unsuitable"]
         for name in dict.fromkeys(row["method"] for row in rows):
-            for chart, quantity in zip(axes, ("residual", "error"), strict=True):
+            for chart, quantity in zip(axes, quantities, strict=True):
                 mine = [row for row in rows if row["method"] == name and row[quantity] is not None]
                 values = np.maximum([row[quantity] for row in mine], FLOOR)
                 mark, line, k = LOOKS[name]
@@ -136,13 +145,12 @@ class LcpStudy:
                 chart.loglog([row["cpu_s"] for row in mine], values, label=name, **look)
         seconds = [row["cpu_s"] for row in rows]
         decades = np.floor(np.log10(min(seconds))), np.ceil(np.log10(max(seconds)))
-        axes[0].set(xlim=10.0 ** np.array(decades), ylim=(FLOOR / 3, HIGHEST), title="residual")
-        axes[1].set(title=f"error of {rows[0]['of']}, relative")
-        for chart in axes:
-            chart.set(xlabel="processor time of the call [s]")
+        axes[0].set(xlim=10.0 ** np.array(decades), ylim=(FLOOR / 3, HIGHEST))
+        for chart, title in zip(axes, quantities.values(), strict=True):
+            chart.set(xlabel="processor time of the call [s]", title=title)
             chart.tick_params(labelleft=True)
-        axes[1].legend(fontsize=7, handlelength=4, frameon=False, bbox_to_anchor=(1, 1), loc="upper left")
-        words = "lower left is better, what leaves at the top diverges"
+        axes[-1].legend(fontsize=7, handlelength=4, frameon=False, bbox_to_anchor=(1, 1), loc="upper left")
+        words = "lower left is better" + ", what leaves at the top diverges" * (many > 1)
         figure.suptitle(f"{self.label}, {rows[0]['n']} rows: {words}")
         figure.savefig(path)
         plt.close(figure)
