@@ -90,6 +90,14 @@ def test_nothing_wrong_is_called_solved(block):
         judge([block, k], brute_force=k % 10 == 0)
 
 
+@pytest.mark.parametrize("k", [5977, 14624, 62484])
+def test_seeds_that_told_something(k):
+    """λ⁰ all but right, so that its residual is rounding; rows that contradict each other, which λ = 7e15 hid;
+    rows whose b are 1e6 apart, where a plane of ``enumeration`` was 3e-10 off.
+    """
+    judge([99, k])
+
+
 @given(st.integers(0, 2**32 - 1))
 @settings(max_examples=150, deadline=None)
 def test_whatever_the_seed(seed):
