@@ -92,7 +92,7 @@ def test_nothing_wrong_is_called_solved(block):
 
 @pytest.mark.parametrize("k", [5977, 14624, 62484])
 def test_seeds_that_told_something(k):
-    """λ⁰ all but right, so that its residual is rounding; rows that contradict each other, hidden by λ = 7e15;
+    """λ⁰ all but right, its residual mere rounding; rows that contradict each other, hidden by λ = 7e15;
     rows whose b are 1e6 apart, where a plane of ``enumeration`` was 3e-10 off.
     """
     judge([99, k])
