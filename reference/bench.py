@@ -98,15 +98,16 @@ def main(arguments=None):
             print(f"{engine.name} is not installed here, and so not compared: {engine.install}")
     longest, repeats = (0.03, 3) if options.quick else (0.2, 5)
     options.out.mkdir(parents=True, exist_ok=True)
-    everything, text, compared = [], [], [HEADING]
+    everything, text, compared = [], [], []
     for label, rows in measured(labels, longest, repeats, options.scheduler):
         everything += rows
         text.append(STUDIES[label].table(rows))
         print(text[-1], flush=True)
         STUDIES[label].plot(rows, options.out / f"{label.replace('/', '_')}.png")
         compared += STUDIES[label].summary(rows)
-    text.append("\n".join(compared))
-    print(text[-1])
+    if compared:
+        text.append("\n".join([HEADING, *compared]))
+        print(text[-1])
     (options.out / "bench.txt").write_text("\n\n".join(text) + "\n", encoding="utf-8")
     lines = "".join(json.dumps(row) + "\n" for row in everything)
     (options.out / "bench.jsonl").write_text(lines, encoding="utf-8")

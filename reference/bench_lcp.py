@@ -33,6 +33,16 @@ _ROW_BY_ROW = (
 LARGEST = {"enumeration": 12, **dict.fromkeys(("murty", "dantzig", "lemke"), 500)}  # n; else 1000
 _FACTOR = 4
 AIMS = (1e-2, 1e-4, 1e-6, 1e-8)
+FLOOR, HIGHEST = 1e-16, 10  # what is drawn of errors
+# One mark and line for each family: pivoting, splitting, by blocks, Newton, gradients.
+_FAMILIES = (
+    ("s", "-", ("enumeration", "murty", "dantzig", "lemke")),
+    ("o", "-", ("jacobi", "damped_jacobi", "gauss_seidel", "symmetric_gauss_seidel", "sor", "red_black")),
+    ("x", ":", ("block_jacobi", "block_gauss_seidel")),
+    ("^", "--", ("min_map_newton", "fischer_newton", "interior_point")),
+    ("D", "-.", ("nncg", "apgd")),
+)
+LOOKS = {name: (mark, line, k) for mark, line, names in _FAMILIES for k, name in enumerate(names)}
 
 
 @dataclass(frozen=True)
@@ -92,6 +102,7 @@ class LcpStudy:
             "error": error if error is not None and np.isfinite(error) else None,
             "of": "λ" if known.w is None else "w",
             "status": solution.status,
+            "n": known.problem.n,
         }
 
     def table(self, rows):
@@ -110,21 +121,37 @@ class LcpStudy:
         return "\n".join(lines)
 
     def plot(self, rows, path):
-        """Residual and error of λ against seconds, side by side."""
-        from .view.charts import COLOURS, plt
+        """Residual against seconds, beside it the error of λ, where an answer is known. Who can't treat the
+        problem is left out.
+        """
+        from .view.charts import COLOURS, STYLE, plt
 
-        figure, axes = plt.subplots(1, 2, figsize=(11, 4.5), sharey=True, layout="constrained")
-        for chart, quantity in zip(axes, ("residual", "error"), strict=True):
-            for k, name in enumerate(dict.fromkeys(row["method"] for row in rows)):
-                points = [(row["cpu_s"], row[quantity]) for row in rows if row["method"] == name]
-                points = [point for point in points if point[1] is not None]
-                seconds, values = zip(*points, strict=True) if points else ((), ())
-                look = {"color": COLOURS[k % 8], "linestyle": ("-", "--", ":")[k // 8 % 3]}
-                chart.loglog(seconds, np.maximum(values, 1e-16), marker="o", ms=3, label=name, **look)
-            title = quantity if quantity == "residual" else f"error of {rows[0]['of']}"
-            chart.set(xlabel="processor time [s]", title=title)
-        axes[1].legend(fontsize=7, bbox_to_anchor=(1, 1))
-        figure.suptitle(self.label)
+        quantities = {"residual": "residual", "error": f"error of {rows[0]['of']}, relative"}
+        if all(row["error"] is None for row in rows):
+            del quantities["error"]
+        many = len(quantities)
+        with plt.rc_context(STYLE):
+            figure, axes = plt.subplots(
+                1, many, figsize=(2 + 4.5 * many, 4.5), sharex=True, sharey=True, squeeze=False
+            )
+        axes = axes[0]
+        rows = [row for row in rows if row["status"] != "unsuitable"]
+        for name in dict.fromkeys(row["method"] for row in rows):
+            for chart, quantity in zip(axes, quantities, strict=True):
+                mine = [row for row in rows if row["method"] == name and row[quantity] is not None]
+                values = np.maximum([row[quantity] for row in mine], FLOOR)
+                mark, line, k = LOOKS[name]
+                look = {"marker": mark, "linestyle": line, "color": COLOURS[k], "markersize": 4}
+                chart.loglog([row["cpu_s"] for row in mine], values, label=name, **look)
+        seconds = [row["cpu_s"] for row in rows]
+        decades = np.floor(np.log10(min(seconds))), np.ceil(np.log10(max(seconds)))
+        axes[0].set(xlim=10.0 ** np.array(decades), ylim=(FLOOR / 3, HIGHEST))
+        for chart, title in zip(axes, quantities.values(), strict=True):
+            chart.set(xlabel="processor time of the call [s]", title=title)
+            chart.tick_params(labelleft=True)
+        axes[-1].legend(fontsize=7, handlelength=4, frameon=False, bbox_to_anchor=(1, 1), loc="upper left")
+        words = "lower left is better" + ", what leaves at the top diverges" * (many > 1)
+        figure.suptitle(f"{self.label}, {rows[0]['n']} rows: {words}")
         figure.savefig(path)
         plt.close(figure)
 

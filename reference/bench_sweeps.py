@@ -101,7 +101,8 @@ class SweepStudy:
 
         figure, axes = plt.subplots(figsize=(7, 2.5), layout="constrained")
         axes.barh([row["method"] for row in rows][::-1], [row["rate"] / 1e6 for row in rows][::-1])
-        axes.set(xlabel="million rows a second")
+        title = f"Gauss–Seidel with clipping, {3 * self.contacts} rows of about 30 numbers: more is better"
+        axes.set(xlabel="million rows a second", title=title)
         figure.savefig(path)
         plt.close(figure)
 

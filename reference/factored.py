@@ -101,6 +101,14 @@ class Factored:
         add_rows(self.bodies, self.B, np.asarray(λ, dtype=float), u)
         return u
 
+    def sizes(self, λ):
+        """(m,): the sum of the sizes of all that is added up in A λ; its rounding is about ε times that."""
+        J, B, λ = np.abs(self.J), np.abs(self.B), np.abs(np.asarray(λ, dtype=float))
+        u, result = np.zeros((self.count, J.shape[2])), np.empty(len(λ))
+        add_rows(self.bodies, B, λ, u)
+        multiply(self.bodies, J, self.softness, λ, u, result)
+        return result
+
     def diagonal(self):
         """A_ii (m,)."""
         result = self.softness.copy()

@@ -87,37 +87,34 @@ def gaps(A, b, lower, upper, friction, λ):
     return r, w, d
 
 
-def scale(A, b, lower, upper, friction):
-    """max |r_i| of λ⁰, what every residual is divided by."""
-    return float(
-        max(map(abs, gaps(A, b, lower, upper, friction, origin(lower, upper, friction))[0]), default=0)
-    )
+def largest_gap(A, b, lower, upper, friction, tolerance=1e-10):
+    """What max |r_i| of a λ called solved may come to, in exact numbers; no more for large λ than for small.
 
-
-def unseen(A, b, λ, d):
-    """What no solver can see of each r_i (n,): w_i is a sum of n + 1 products of doubles, so it is off by up
-    to n + 1 roundings of the sum of their sizes, and clip and quotient add one each.
+    A solver sees w_i only to rounding: of n + 1 products summed up, each off by 2⁻⁵³, so by (n + 1)/2 times
+    ε (|A||λ| + |b|)_i at most. It promises that ε (…) hides no more than the tolerance: a λ so large that it
+    would must not be called solved, unless it hides at most twice as much as at λ⁰ itself. So the tolerance
+    and (n + 1)/2 times the same, times the size of r(λ⁰); and twice what rounding may come to at λ⁰.
     """
-    return (len(b) + 3) * 2.0**-53 * (np.abs(A) @ np.abs(λ) + np.abs(b)) / np.array(d, dtype=float)
+    start = origin(lower, upper, friction)
+    r, _, d = gaps(A, b, lower, upper, friction, start)
+    size = float(max(map(abs, r), default=0))
+    rounding = (len(b) + 1) * 2.0**-53 * (np.abs(A) @ np.abs(start) + np.abs(b)) / np.array(d, dtype=float)
+    return tolerance * size * (1 + (len(b) + 1) / 2) + 2 * rounding.max(initial=0)
 
 
-def is_answer(A, b, lower, upper, friction, λ, tolerance=1e-10, size=None):
-    """Whether λ solves it: in exact numbers no |r_i| is above tolerance times ``size``, the scale.
+def is_answer(A, b, lower, upper, friction, λ, most=None):
+    """Whether λ solves it: in exact numbers no |r_i| is above ``most``, by default ``largest_gap``.
 
-    Allowed besides is only what is ``unseen``.
     A row of zeros has no d to make a length of w_i = b_i: there λ_i must be as near to its very bound.
     """
     if not np.isfinite(λ).all():
         return False
-    size = scale(A, b, lower, upper, friction) if size is None else size
-    r, _, d = gaps(A, b, lower, upper, friction, λ)
-    rounding = unseen(A, b, λ, d)
-    near = all(abs(x) <= tolerance * size + off for x, off in zip(r, rounding, strict=True))
+    most = largest_gap(A, b, lower, upper, friction) if most is None else most
+    r, _, _ = gaps(A, b, lower, upper, friction, λ)
     low, high = limits(lower, upper, friction, λ)
     for i in np.flatnonzero(~np.abs(A).any(axis=1) & (np.array(b) != 0)):
-        bound = low[i] if b[i] > 0 else high[i]
-        near &= bool(abs(λ[i] - bound) <= tolerance * size)
-    return near
+        r[i] = λ[i] - (low[i] if b[i] > 0 else high[i])
+    return max(map(abs, r), default=0) <= most
 
 
 def farthest(A, b, lower, upper, λ, tolerance=1e-10):
@@ -125,12 +122,12 @@ def farthest(A, b, lower, upper, λ, tolerance=1e-10):
 
     With r the gaps of λ and e its error, y = λ − r is within the bounds, and the two inequalities that y and
     the solution satisfy give eᵀAe ≤ (A e)ᵀr + (D r)ᵀe, so ‖e‖ ≤ (‖A‖ + max d) ‖r‖ / c with c the least
-    eigenvalue of (A + Aᵀ)/2; and |r_i| is at most tolerance max |r(λ⁰)|, and what is ``unseen``.
+    eigenvalue of (A + Aᵀ)/2; and |r_i| is at most ``largest_gap``.
     """
     if not len(b):
         return 0.0
     d = gaps(A, b, lower, upper, None, λ)[2]
-    r = np.linalg.norm(tolerance * scale(A, b, lower, upper, None) + unseen(A, b, λ, d))
+    r = np.sqrt(len(b)) * largest_gap(A, b, lower, upper, None, tolerance)
     return (np.linalg.norm(A, 2) + float(max(d))) / np.linalg.eigvalsh((A + A.T) / 2)[0] * r
 
 

@@ -25,7 +25,8 @@ from .standard import plain, why_no_plain
 
 _MOST = 2**16  # cones
 _OFF, _NEAR, _SAME = 1e-9, 1e-6, 1e-8  # surely apart; worth a look; the same solution
-_NOISE = 1e-15
+_NOISE = 4e-15  # what is left of numbers that should cancel, beside the largest of them
+_SURE = 1e6  # times q: rounding of y must not matter to any z up to that
 _FLAT = 1e10  # what the inverse may grow to before a cone is taken for flat
 _FOUND = "λ solves the problem. All {cones} cones were tried: {words}"
 _NONE = (
@@ -110,6 +111,7 @@ def in_cone(M, q, positive):
     """(z, y): z (m,) if q lies in or near the cone where z may be ``positive``; y (m,) if a plane parts them.
 
     The plane: y · column ≥ 0 for all columns of the cone, and y · q < 0. Either is None where it isn't so.
+    Where rounding leaves y · column at −ε, a combination x ≥ 0 of columns is shut out while ε Σx < −y · q.
     """
     C = np.where(positive, -M, np.eye(len(q)))
     if not len(q):
@@ -128,9 +130,9 @@ def in_cone(M, q, positive):
         except RuntimeError:  # it found no end
             return None, None
         y = C @ sides - q
-        y[np.abs(y) <= _NOISE * (np.abs(C) @ sides + np.abs(q))] = 0  # rounding of what should cancel
-    off = np.abs(y) @ np.abs(q) + 1e-300
-    apart = y @ q < -_OFF * off and (y @ C).min() >= -_OFF * np.abs(y).max()
+        y[np.abs(y) <= _NOISE * (np.abs(C) @ sides + np.abs(q)).max()] = 0
+    off, below = np.abs(y) @ np.abs(q) + 1e-300, max(0.0, -(y @ C).min())
+    apart = y @ q < -_OFF * off and -(y @ q) > _SURE * below * np.abs(q).max()
     near = (
         sides.min() >= -_NEAR * np.abs(sides).max() and np.abs(C @ sides - q).max() <= _NEAR * np.abs(q).max()
     )

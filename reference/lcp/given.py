@@ -45,7 +45,7 @@ def real(name, value, shape):
     if np.asarray(value).dtype.kind == "c":
         raise TypeError(f"{name} must hold real numbers, but holds complex ones")
     return inputs.array(
-        name, np.reshape(value, shape) if np.size(value) == 0 == np.prod(shape) else value, shape
+        name, np.reshape(value, shape) if 0 in shape and np.size(value) == 0 else value, shape
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from .. import inputs
 from .operators import arrays, for_form
 from .problem import LCP, ConeProblem
-from .solution import MAX_ITERATIONS, SOLVED, UNSUITABLE, finish
+from .solution import MAX_ITERATIONS, SOLVED, UNSUITABLE, finish, is_unseen
 
 BLOWN_UP = 1e12  # times what the residual was at first: then a method has diverged
 _MOST = 10**8  # iterations: their history must fit into memory
@@ -38,7 +38,9 @@ def solved_already(problem, λ, tolerance):
     (any other λ then has an infinite residual, so there is nothing to come near to).
     """
     for guess in (λ, problem.origin):
-        if problem.residual(guess) <= (tolerance if guess is λ else 0):
+        w = problem.w(guess)
+        seems = problem.residual(guess, w) <= (tolerance if guess is λ else 0)
+        if seems and not is_unseen(problem, guess, w, tolerance):
             return finish(problem, guess, 0, SOLVED, tolerance)
     return None
 

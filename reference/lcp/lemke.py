@@ -61,9 +61,7 @@ def lemke(
     """
     inputs.choice("ties", ties, ("first", "lexicographic"))
     λ, tolerance, most, solution = begun(problem, start, tolerance, max_iterations)
-    c = np.ones(problem.n) if cover is None else inputs.array("cover", cover, (problem.n,))
-    if (c < 0).any():
-        raise ValueError(f"cover must be at least 0, but holds {c.min():g}")
+    c = np.ones(problem.n) if cover is None else _checked_cover(cover, problem.n)
     if solution:
         return solution
     if problem.is_plain and isinstance(problem.A, np.ndarray) and cover is None and not record:
@@ -83,6 +81,13 @@ def lemke(
         i = parts.row[uncovered[0]]
         raise ValueError(f"cover must be positive where w is wrong at λ⁰, but is 0 in row {i}")
     return _solve(problem, form, parts, c, tolerance, most, ties == "lexicographic", record)
+
+
+def _checked_cover(cover, n):
+    c = inputs.array("cover", cover, (n,))
+    if (c < 0).any():
+        raise ValueError(f"cover must be at least 0, but holds {c.min():g}")
+    return c
 
 
 def _solve(problem, form, parts, c, tolerance, most, lexicographic, record):

@@ -1,8 +1,8 @@
 """Lemke's path, compiled: which row leaves, by the lexicographic rule, and pivot after pivot till z₀ leaves.
 
 Of each vertex's two neighbours one is where the path came from. ``leaving_row`` says where it goes on, and
-that takes two columns of the tableau: so exchanges are done late, two at once (``late``), but at a tie.
-``lemke`` says what the path is good for.
+that takes one column of the tableau and the constants: so exchanges are done late, four at once (``late``),
+but at a tie. ``lemke`` says what the path is good for.
 
 Slides S13; lectures/06_pivoting_lcp.md. Source: Cottle, Pang & Stone, The Linear Complementarity Problem
 (2009), sections 4.4 and 4.9.
@@ -11,7 +11,7 @@ Slides S13; lectures/06_pivoting_lcp.md. Source: Cottle, Pang & Stone, The Linea
 import numpy as np
 
 from ..compiled import compiled, compiled_apart
-from .late import clear_row, exchange_late, read_column, settle
+from .late import TOGETHER, clear_row, exchange_late, read_column, settle
 from .path_end import vertex
 from .pivoting import equilibrated, power_of_two
 from .solution import CYCLE, MAX_ITERATIONS, RAY, SOLVED
@@ -27,42 +27,51 @@ def follow_path(T, basic, nonbasic, at, most, lexicographic, saved):
     m + i is z_i, 2m is z₀. at (3,): the entering column, then as in ``principal.came_back``. saved (m,).
     """
     m = len(basic)
-    f, g, column, constants = np.zeros(m), np.zeros(m + 2), np.empty(m), np.empty(m)
-    pending = False  # f gᵀ is still to be added to T
+    column, constants = np.empty(m), T[:, m + 1].copy()
+    F, G, late = np.empty((TOGETHER, m)), np.empty((TOGETHER, m + 2)), 0  # Fᵀ G is still to be added to T
     place = np.empty(2 * m + 1, np.int64)  # in which column each nonbasic unknown is
     for j in range(m + 1):
         place[nonbasic[j]] = j
     for k in range(most):
         s = at[0]
-        read_column(T, f, g, s, column)
-        read_column(T, f, g, m + 1, constants)
+        read_column(T, F, G, late, s, column)
         r = first_row(T, s, lexicographic) if nonbasic[s] == 2 * m else -1
         if r < 0:
             r = clear_row(column, constants)
         if r == m:
-            settle(T, f, g)
-            pending, r = False, leaving_row(T, basic, nonbasic, s, lexicographic)
+            settle(T, F, G, late)
+            late, r = 0, leaving_row(T, basic, nonbasic, s, lexicographic)
         if r < 0:
-            settle(T, f, g)
+            settle(T, F, G, late)
             return k, RAY
-        pending = exchange_late(T, f, g, r, s, column, pending)
+        move_constants(constants, column, r)
+        late = exchange_late(T, F, G, late, r, s, column)
         left = basic[r]
         basic[r], nonbasic[s] = nonbasic[s], left
         if left == 2 * m:
-            settle(T, f, g)
+            settle(T, F, G, late)
             return k + 1, SOLVED
         partner = left + m if left < m else left - m
         at[0] = place[partner]
         place[left] = s
         if is_saved(basic, saved):
-            settle(T, f, g)
+            settle(T, F, G, late)
             return k + 1, CYCLE
         at[1] += 1
         if at[1] >= at[2]:
             at[1], at[2] = 0, 2 * at[2]
             saved[:] = basic
-    settle(T, f, g)
+    settle(T, F, G, late)
     return most, MAX_ITERATIONS
+
+
+@compiled
+def move_constants(constants, column, r):
+    """What the exchange of row r does to the constants (m,), ahead of the tableau: column (m,) enters."""
+    step = constants[r] / -column[r]
+    for i in range(len(constants)):
+        constants[i] += column[i] * step
+    constants[r] = step
 
 
 @compiled

@@ -15,9 +15,12 @@ import numpy as np
 import scipy.sparse
 
 from .. import inputs
+from ..compiled import compiled
 from ..factored import Factored
 from . import given
 from .merit import ConeTerms, Terms, cone_merit, merit
+
+EPSILON = np.finfo(float).eps
 
 
 class _Problem:
@@ -40,14 +43,25 @@ class _Problem:
         inf where λ or w are not finite, and where only λ⁰ solves exactly. Never NaN.
         """
         λ = np.asarray(λ, dtype=float)
-        return relative(self._merit(λ, self.w(λ) if w is None else w), self.scale)
+        return relative(self.merit(λ, self.w(λ) if w is None else w), self.scale)
+
+    def rounding(self, λ):
+        """How far rounding may have moved each w_i (n,): about ε (|A||λ| + |b|)_i, as that is summed up."""
+        with np.errstate(all="ignore"):
+            return EPSILON * (sizes(self.A, λ) + np.abs(self.b))
+
+    def noise(self, λ):
+        """How far rounding may have moved the r_i of λ (n,), at most: a length of λ, as the merit is."""
+        d = self.terms.d
+        d = d if len(d) == self.n else np.repeat(d, self.n // len(d))
+        return float((self.rounding(λ) / d).max(initial=0))
 
     zero_rows = ()
 
     @cached_property
     def scale(self):
         """The merit of λ⁰, by which every other is divided; inf where the numbers are too large for that."""
-        value = self._merit(self.origin, self.w_at_origin)
+        value = self.merit(self.origin, self.w_at_origin)
         return value if np.isfinite(value) else np.inf
 
     @property
@@ -55,7 +69,8 @@ class _Problem:
         """w of λ⁰ (n,), not to be written into."""
         return self.w(self.origin) if self.origin.any() else self.b
 
-    def _merit(self, λ, w):
+    def merit(self, λ, w):
+        """max |r_i| of λ (n,) with its w (n,), a length of λ."""
         with np.errstate(all="ignore"):
             return float(self.measure(self.terms, λ, w))
 
@@ -176,6 +191,24 @@ def row_peaks(A, rows):
         return A.row_peaks(rows)
     peaks = abs(A[rows]).max(axis=1)
     return peaks.toarray().ravel() if scipy.sparse.issparse(peaks) else peaks
+
+
+def sizes(A, λ):
+    """The sizes of what is summed up in A λ (n,): |A| |λ|, where A is a matrix."""
+    if isinstance(A, Factored):
+        return A.sizes(λ)
+    return abs(A) @ np.abs(λ) if scipy.sparse.issparse(A) else _dense_sizes(A, λ)
+
+
+@compiled(reorder=True)
+def _dense_sizes(A, λ):
+    result = np.empty(len(λ))
+    for i in range(len(λ)):
+        total = 0.0
+        for j in range(len(λ)):
+            total += abs(A[i, j] * λ[j])
+        result[i] = total
+    return result
 
 
 def _block_size(n, mu, dimension):

@@ -1,7 +1,9 @@
 """What a solver leaves behind, and the only place where it is decided whether that is a solution.
 
 ``finish`` measures the λ that a solver hands in from the problem itself. Whatever the solver believes, a λ
-whose residual is above the tolerance is never called solved.
+whose residual is above the tolerance is never called solved. Nor is one that is so large that rounding could
+hide more than that: two rows that ask λ_1 + λ_2 = 0 and 3 λ_1 + 3 λ_2 = 1 may both look right at
+λ = (−7e15, 7e15), where 3 λ is rounded to a multiple of 4.
 
 Slides S13, S14; lectures/06_pivoting_lcp.md.
 """
@@ -26,9 +28,15 @@ _REASONS = {
     "is {residual:.2g}.",
     "unsuitable": "This method can't treat this problem.",
 }
+HIDDEN = 1e-10  # a residual that rounding may always hide, however small the tolerance
 _UNTRUE = (
     "The method came to its end, but rounding has left a residual of {residual:.2g}, above the tolerance of "
     "{tolerance:.2g}: the problem is ill-conditioned, or the tolerance too small for its numbers."
+)
+_UNSEEN = (
+    "The residual looks like {residual:.2g}, but λ is as large as {largest:.2g}: rounding alone leaves w "
+    "unsure by {rounding:.2g}, which could hide more than the tolerance of {tolerance:.2g}, so it proves "
+    "nothing. The problem has no solution, or is ill-conditioned, or the method ran off along a line of them."
 )
 
 
@@ -56,7 +64,7 @@ class Solution:
 
     @property
     def solved(self):
-        """True only if residual ≤ tolerance."""
+        """True only if residual ≤ tolerance, and rounding can't hide much more than that."""
         return self.status == "solved"
 
 
@@ -73,9 +81,29 @@ def misplaced(problem, λ, tolerance):
     return None, 0
 
 
+def worst_merit(problem, λ, w):
+    """The merit of λ if the rounding of w = A λ + b were all in one direction, and that the worse one."""
+    off = problem.rounding(λ)
+    return max(problem.merit(λ, w + off), problem.merit(λ, w - off))
+
+
+def is_unseen(problem, λ, w, tolerance):
+    """Whether rounding of w could hide that λ, whose residual is within the tolerance, is no solution.
+
+    It may always hide what is small beside the merit of λ⁰, or what it hides there, since λ⁰ is given.
+    """
+    most = max(tolerance, HIDDEN) * problem.scale
+    if problem.noise(λ) <= most:
+        return False  # nearly always: then there is no need to ask in which rows it matters
+    most += tolerance * problem.scale + 2 * problem.noise(problem.origin)
+    return not worst_merit(problem, λ, w) <= most
+
+
 def solves(problem, λ, tolerance):
     """Whether λ (n,) is what is called a solution."""
-    return problem.residual(λ) <= tolerance and misplaced(problem, λ, tolerance)[0] is None
+    w = problem.w(λ)
+    seems = problem.residual(λ, w) <= tolerance and misplaced(problem, λ, tolerance)[0] is None
+    return seems and not is_unseen(problem, λ, w, tolerance)
 
 
 def finish(
@@ -84,7 +112,8 @@ def finish(
     """The Solution that λ (n,) is, measured afresh from the problem.
 
     code: what the method believes, a word of ``STATUSES`` or its number. It stands unless λ says otherwise:
-    λ is "solved" if and only if its residual is at most the tolerance, and no row of zeros forbids it.
+    λ is "solved" if and only if its residual is at most the tolerance, rounding could not hide more than as
+    much again (or ``HIDDEN``), and no row of zeros forbids it.
     reason: a sentence in place of the usual one, for that status only.
     history (iterations + 1,): residuals, of which the last is measured anew.
     """
@@ -108,6 +137,15 @@ def finish(
         else:
             status = "diverged" if believed == "solved" else believed
             words += f"and λ_{i} must be at its bound {bound:.3g}, but is {λ[i]:.3g}."
+    elif residual <= tolerance and is_unseen(problem, λ, w, tolerance):
+        if believed not in ("ray", "infeasible"):
+            status = "diverged" if believed == "solved" else believed
+            words = _UNSEEN.format(
+                residual=residual,
+                largest=np.abs(λ).max(),
+                rounding=problem.rounding(λ).max(),
+                tolerance=tolerance,
+            )
     elif residual <= tolerance:
         status, certificate = "solved", None
         words = reason if reason and believed == "solved" else _REASONS["solved"]
