@@ -13,8 +13,9 @@ longer the gradient of anything, and its Jacobian M + ρ Jᵀ P′ Φ′ J isn't
 A row may give way, w = J u + c + γ λ. Then λ̂ = P(λ − ρ (J u + c + γ λ̂)), which need not be iterated: it is
 the projection of y in which the row's share of the distance is weighed by 1 + ρ γ.
 
-Slides S10, S14; lectures/08_newton_lcp.md. Source: Rockafellar, Math. Oper. Res. 1 (1976) 97; De Saxcé & Feng,
-Math. Comput. Modelling 28 (1998) 225 (the shift); Alart & Curnier, CMAME 92 (1991) 353 (such a Jacobian).
+Slides S10, S14; lectures/08_newton_lcp.md. Source: Rockafellar, Math. Oper. Res. 1 (1976) 97; De Saxcé &
+Feng, Math. Comput. Modelling 28 (1998) 225 (the shift); Alart & Curnier, CMAME 92 (1991) 353 (such a
+Jacobian).
 """
 
 from typing import NamedTuple
@@ -46,6 +47,7 @@ class Law(NamedTuple):
     give: np.ndarray  # 1 + ρ γ of the first row: 1 where it is rigid
     shift: np.ndarray  # added to w_n, m/s, unless it follows
     limit: np.ndarray  # of friction, by itself; −1: the cone
+    answer: np.ndarray  # (B, 2): the shift before, and the μ|w_t| that it led to
 
 
 class Pass(NamedTuple):
@@ -61,7 +63,9 @@ class Pass(NamedTuple):
 @compiled
 def make_law(blocks):
     """Rigid, no shift, no limit; ρ is still to be set."""
-    return Law(np.empty(blocks), np.ones(blocks), np.zeros(blocks), np.full(blocks, -1.0))
+    return Law(
+        np.empty(blocks), np.ones(blocks), np.zeros(blocks), np.full(blocks, -1.0), np.zeros((blocks, 2))
+    )
 
 
 @compiled

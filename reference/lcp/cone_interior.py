@@ -6,55 +6,38 @@ the answer together along the path on which all their products are the same, s �
 
     M (u − u_free) = Jᵀ λ,    s = Φ(J u + c),    s ∘ z = t e;     z = (μ λ_n, λ_t)
 
-Φ(w) = (w_n/μ, w_t) for the convex law; for Coulomb's |w_t| is added to the first (De Saxcé). z and s then live
-in one and the same round cone. Each step is a linear system with M + Jᵀ W⁻² Φ′ J, W a block a contact: the
-scaling that takes z and s to the same point, W z = W⁻¹ s (Nesterov and Todd's). 10 to 40 steps, whatever the
-heap, and from any start. That such a path leads to the answer is proved for the convex law only; in heaps it
-does for Coulomb's, too, all but always. What it finds, to 1e-8, is where the passes of ``cone_newton`` begin.
+Φ(w) = (w_n/μ, w_t) for the convex law; for Coulomb's |w_t| is added to the first (De Saxcé). z and s then
+live in one and the same round cone. Each step is a linear system with M + Jᵀ W⁻² Φ′ J, W a block a contact:
+the scaling that takes z and s to the same point, W z = W⁻¹ s (Nesterov and Todd's). 10 to 40 steps, whatever
+the heap, and from any start. That such a path leads to the answer is proved for the convex law only; in heaps
+it does for Coulomb's, too, all but always. Where it leads is where the passes of ``cone_newton`` begin.
 
 Slides S14; lectures/08_newton_lcp.md. Source: Nesterov & Todd, SIAM J. Optim. 8 (1998) 324; Mehrotra, SIAM J.
 Optim. 2 (1992) 575 (two solves a step); Acary, Armand, Nguyen & Shpakovych, Optim. Methods Softw. 39 (2024)
 (friction by such methods).
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from ..compiled import compiled_apart, inner, inner_apart
 from .augmented import STICKS, ContactRows, dot
 from .block_lu import factorise, solve
-from .coulomb import along
-from .round_cone import aim, find_scaling, put_inverse_square, to_boundary
+from .inside_step import Inside, advance, look, move_along, pull
+from .round_cone import aim, find_scaling, put_inverse_square
 from .smooth_pass import fill_matrix, forget
 
-MOST_STEPS, PATIENCE, CLOSE = 60, 8, 1e-8  # steps in all, without getting nearer, and until it is near
+MOST_STEPS, PATIENCE = 60, 8  # steps in all, and without getting nearer
 SMALLEST_FRICTION = 1e-3  # less is taken for this: z and s would be too thin to be computed with
-BACK, STUCK = 0.99, 1e-3  # of the way to where a cone ends; a way that is none
+BACK, STUCK = 0.99, 0.1  # of the way to where a cone ends; a way that is none
 FIRM = 1e-4  # ε of what has bounds on both sides, or none: it is held, as if it had none
 
 
-class Inside(NamedTuple):
-    """Room for s, z and what belongs to them, (m,) each but the last."""
-
-    s: np.ndarray
-    z: np.ndarray
-    ds: np.ndarray
-    dz: np.ndarray
-    p: np.ndarray  # Φ − s
-    r: np.ndarray  # what z is to change by, but for W⁻² times what s does
-    turn: np.ndarray  # W's axis, of determinant 1
-    t: np.ndarray  # w_t/|w_t| where the law is Coulomb's, else 0: what Φ′ differs from 1 by, in w_n's row
-    square: np.ndarray  # (m, 3): W⁻²
-    θ: np.ndarray  # (B,): W's size
-    room: np.ndarray  # (4, 3)
-
-
 @compiled_apart
-def start_inside(rows, M, free, coulomb, λ, u, size, scale, factor, out):
+def start_inside(rows, M, free, coulomb, near, λ, u, size, scale, factor, out):
     """λ (m,) and u (n, k), roughly: in place. Returns the steps taken.
 
-    size (B,): A's largest diagonal entry of each block; scale: the worst free w, m/s. factor, out: room.
+    near: the error, over scale, at which to stop. size (B,): A's largest diagonal entry of each block; scale:
+    the worst free w, m/s. factor, out: room.
     """
     rows, unit = make_round(rows)
     m = len(unit)
@@ -74,7 +57,7 @@ def start_inside(rows, M, free, coulomb, λ, u, size, scale, factor, out):
         if off < best:
             keep(unit, inside.z, u, λ, best_u)
             best, since = off, since if off > 0.9 * best else 0
-        if off <= CLOSE * scale or since == PATIENCE:
+        if off <= near * scale or since == PATIENCE:
             break
         fill_matrix(rows, M, ρ, out, factor)
         if not factorise(factor.blocks):
@@ -152,17 +135,6 @@ def aim_all(rows, inside, target, correcting):
                 inside.r[i] = -inside.z[i]
 
 
-@inner
-def advance(way, move, u, inside):
-    """Go so much of the way."""
-    for i in range(len(u)):
-        for a in range(u.shape[1]):
-            u[i, a] += way * move[i, a]
-    for i in range(len(inside.s)):
-        inside.s[i] += way * inside.ds[i]
-        inside.z[i] += way * inside.dz[i]
-
-
 @compiled_apart
 def make_round(rows):
     """The rows with J and c in units in which each cone is round, w_n/μ and w_t; and the units (m,)."""
@@ -174,89 +146,3 @@ def make_round(rows):
     for r in range(len(c)):
         J[r] *= unit[r]
     return ContactRows(rows.bodies, J, c, rows.block, rows.μ, rows.lower, rows.upper), unit
-
-
-@inner_apart
-def look(rows, M, free, coulomb, u, inside, gradient, unit):
-    """p = Φ(J u + c) − s, t, and the gradient M (u − free) − Jᵀ z. Returns the worst of p and it, m/s."""
-    worst, k, p, t = 0.0, u.shape[1], inside.p, inside.t
-    for i in range(len(u)):
-        for a in range(k):
-            total = 0.0
-            for b in range(k):
-                total += M[i, a, b] * (u[i, b] - free[i, b])
-            gradient[i, a] = total
-    for q in range(len(rows.μ)):
-        first, end = rows.block[q], rows.block[q + 1]
-        for r in range(first, end):
-            p[r] = rows.c[r]
-            for side in range(2):
-                i = rows.bodies[r, side]
-                if i >= 0:
-                    p[r] += dot(rows.J[r, side], u[i])
-                    for a in range(k):
-                        gradient[i, a] -= rows.J[r, side, a] * inside.z[r]
-        slip = along(rows, q, p) if coulomb else 0.0
-        p[first] += slip
-        for r in range(first, end):
-            t[r] = p[r] / slip if r > first and slip > 0 else 0.0
-            p[r] -= inside.s[r]
-            worst = max(worst, abs(p[r]) / unit[r])
-    for i in range(len(u)):
-        for a in range(k):
-            worst = max(worst, abs(gradient[i, a]) / M[i, a, a])
-    return worst
-
-
-@inner
-def weighted(rows, square, q, r, x):
-    """Entry of row r of block q of W⁻² x."""
-    total, first = 0.0, rows.block[q]
-    for b in range(first, rows.block[q + 1]):
-        total += square[r, b - first] * x[b]
-    return total
-
-
-@inner_apart
-def pull(rows, out, inside, right):
-    """right (n, k) = −gradient + Jᵀ (r − W⁻² p)."""
-    for i in range(len(right)):
-        for a in range(right.shape[1]):
-            right[i, a] = -out.gradient[i, a]
-    for q in range(len(rows.μ)):
-        for c in range(rows.block[q], rows.block[q + 1]):
-            force = inside.r[c] - weighted(rows, inside.square, q, c, inside.p)
-            for side in range(2):
-                i = rows.bodies[c, side]
-                if i >= 0:
-                    for a in range(right.shape[1]):
-                        right[i, a] += rows.J[c, side, a] * force
-
-
-@inner_apart
-def move_along(rows, du, inside):
-    """ds and dz that go with du. Returns how far to go, at most 1, until the first cone ends: 0 if that is
-    not finite.
-    """
-    way, s, z, ds, dz = 1.0, inside.s, inside.z, inside.ds, inside.dz
-    for q in range(len(rows.μ)):
-        first, end = rows.block[q], rows.block[q + 1]
-        for c in range(first, end):
-            ds[c] = 0.0
-            for side in range(2):
-                i = rows.bodies[c, side]
-                if i >= 0:
-                    ds[c] += dot(rows.J[c, side], du[i])
-            if c > first:
-                ds[first] += inside.t[c] * ds[c]
-        for c in range(first, end):
-            ds[c] += inside.p[c]
-        for c in range(first, end):
-            dz[c] = inside.r[c] - weighted(rows, inside.square, q, c, ds)
-            if not abs(ds[c]) + abs(dz[c]) < np.inf:
-                return 0.0
-        if inside.θ[q] < 0:
-            ds[first] = 0.0
-        else:
-            way = min(way, to_boundary(s[first:end], ds[first:end]), to_boundary(z[first:end], dz[first:end]))
-    return way

@@ -12,10 +12,13 @@ scaled A that is not 0: few passes, however heavy the top of a stack is.
 
 Coulomb's law (``ncp``) is not the gradient of anything, but becomes convex with a *shift* μ|w_t| added to
 w_n. A pass takes it from the pass before, and is solved so, safely; from there it lets the shift *follow* w
-(see ``augmented``), which makes of its error the square in each step, and keeps that if it is nearer to the law.
-Where passes don't halve the error, or have too many states to try, they begin again: from inside the cones
+(see ``augmented``), which squares its error in each step, and keeps that if it is nearer to the law. Where
+passes don't halve the error, or have too many states to try, they begin again: from inside the cones
 (``cone_interior``); from where passes with friction's *limit* lead (``coulomb``); and at last from where
 sweeps over the contacts lead (``contact_sweeps``).
+
+A face that slides and turns in space may have many answers. The path from inside ends at one of them, and the
+nearer to its end, the more it is rounding that says which. There the passes take over early.
 
 Slides S10, S14; lectures/08_newton_lcp.md. Source: Rockafellar, Math. Oper. Res. 1 (1976) 97 (augmented
 Lagrangian as proximal point method); Qi & Sun, Math. Programming 58 (1993) 353 (semismooth Newton); De
@@ -26,12 +29,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart, inner_apart
+from ..compiled import compiled, compiled_apart, inner, inner_apart
 from ..factored import add_rows
 from .augmented import ContactRows, Law, Pass, dot, evaluate, make_law, make_pass
 from .cone_interior import start_inside
 from .contact_sweeps import fill_moves, sweep_contacts, velocity
-from .coulomb import breach, no_limit, renew_limit, renew_shift, worst_change
+from .coulomb import begin_shift, breach, no_limit, renew_limit, renew_shift, worst_change
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
 from .smooth_pass import Factor, copy_all, make_factor, solve_smooth, worst_rate
@@ -46,6 +49,7 @@ WEIGHTS = (1e-6, 1e-8, 1e-10, 1e-4, 1e-2)  # and then: smaller where passes are 
 POLISH = (1e-4, 1e-3, 1e-2, 1e-6, 1e-8, 1e-4, 1e-2)  # w's rounding is 1e-16/ε of λ; and from near the answer
 FEW, MANY = 12, 25  # Newton steps in a pass, from a start that may be far, and from inside
 LIMITED = (1e-8, 1e-10, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-4)  # of passes with limits: λ must get somewhere
+ROUGH, CLOSE = 1e-3, 1e-8  # errors until which to come from inside
 SWEEPS, MOST_STARTS = 8, 6  # sweeps at first, then twice as many each time; how often passes begin again
 NEARLY = 1e-9  # an error from which beginning again leads nowhere: it is rounding
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # to polish λ itself, as ``problem.residual`` asks
@@ -68,8 +72,8 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
     """u (n, k) and λ (m,), which holds the start and is changed in place. M (n, k, k), free (n, k).
 
     softness (B,): γ of each block's first row, which gives way: w = J u + c + γ λ. Returns (u, passes,
-    error): how far they are from the law (``coulomb.breach``) and from M (u − free) = Jᵀ λ, m/s, over the worst
-    free |w|; history gets that of each pass, as far as it is long. near: ε to begin with.
+    error): how far they are from the law (``coulomb.breach``) and from M (u − free) = Jᵀ λ, m/s, over the
+    worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with.
     """
     (n, k), blocks = free.shape, len(rows.μ)
     room = Room(
@@ -84,9 +88,10 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
         return u, 0, 0.0
     add_rows(rows.bodies, moves, λ, u)
     if coulomb:
-        renew_shift(rows, velocities(rows, u), room.law)
+        begin_shift(rows, velocities(rows, u), room.law)
     best_λ, best_u, best = λ.copy(), u.copy(), np.inf
-    ε, weight, start, most, last = near, -1, 0, FEW, np.inf
+    ε, weight, start, most, last, faces = near, -1, 0, FEW, np.inf, coulomb and has_faces(rows)
+    passes = -1
     for passes in range(max_iterations):
         steps = solve_pass(rows, M, free, softness, coulomb, λ, u, ε, room, tolerance * scale, most)
         error = take_over(rows, M, softness, coulomb, λ, room) / scale
@@ -102,7 +107,8 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
             if weight >= 0:
                 ε = WEIGHTS[weight] if start == 0 else POLISH[weight]
             continue
-        if start == MOST_STARTS or (start > 1 and best <= NEARLY):
+        start += start == 0 and not faces
+        if start == MOST_STARTS or (start > 2 and best <= NEARLY):
             break
         λ[:], u[:] = best_λ, best_u
         begin_again(start, rows, M, free, moves, softness, coulomb, λ, u, tolerance * scale, scale, room)
@@ -112,7 +118,7 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
 
 
 @inner_apart
-def solve_pass(rows, M, free, softness, coulomb, λ, u, ε, room, wanted, most):
+def solve_pass(rows, M, free, softness, follows, λ, u, ε, room, wanted, most):
     """u for these λ, and with it λ̂ in room.out. Returns how many Newton steps its safe part took."""
     out, trial, law, factor, size, kept = room
     for q in range(len(size)):
@@ -121,7 +127,7 @@ def solve_pass(rows, M, free, softness, coulomb, λ, u, ε, room, wanted, most):
             factor.made[q] = -1
         law.ρ[q], law.give[q] = ρ, 1 + ρ * softness[q]
     steps = solve_smooth(rows, M, free, λ, law, False, factor, u, 0.1 * wanted, out, trial, most)
-    if not coulomb or worst_change(rows, out.w, law) <= ROOM * wanted:
+    if not follows or worst_change(rows, out.w, law) <= ROOM * wanted:
         return steps
     copy_all(u, kept)
     held = max(breach(rows, size, softness, True, out.λ, out.w), worst_rate(M, out.gradient))
@@ -134,10 +140,11 @@ def solve_pass(rows, M, free, softness, coulomb, λ, u, ε, room, wanted, most):
 
 @compiled_apart
 def begin_again(start, rows, M, free, moves, softness, coulomb, λ, u, wanted, scale, room):
-    """Another λ and u to begin with, from the best so far: in place."""
-    if start == 0 or (start == 2 and coulomb):  # of Coulomb's law itself, then of the convex one
-        start_inside(rows, M, free, coulomb and start == 0, λ, u, room.size, scale, room.factor, room.out)
-    elif start == 1 and coulomb:
+    """Another λ and u to begin with, from the best so far: in place. start: how often there has been one."""
+    if start < 2:
+        near = CLOSE if start else ROUGH
+        start_inside(rows, M, free, coulomb, near, λ, u, room.size, scale, room.factor, room.out)
+    elif start == 2 and coulomb:
         for ε in LIMITED:
             renew_limit(rows, λ, room.law)
             solve_pass(rows, M, free, softness, False, λ, u, ε, room, wanted, MANY)
@@ -148,7 +155,20 @@ def begin_again(start, rows, M, free, moves, softness, coulomb, λ, u, wanted, s
         add_rows(rows.bodies, moves, λ, u)
         sweep_contacts(rows, moves, softness, coulomb, λ, u, wanted, SWEEPS << start)
     if coulomb:
-        renew_shift(rows, velocities(rows, u), room.law)
+        begin_shift(rows, velocities(rows, u), room.law)
+
+
+@inner
+def has_faces(rows):
+    """Whether two bodies in space touch at three points or more."""
+    count = 1
+    for q in range(1, len(rows.μ)):
+        r, before = rows.block[q], rows.block[q - 1]
+        same = rows.bodies[r, 0] == rows.bodies[before, 0] and rows.bodies[r, 1] == rows.bodies[before, 1]
+        count = count + 1 if same else 1
+        if count == 3 and rows.block[q + 1] - r == 3:
+            return True
+    return False
 
 
 @inner_apart

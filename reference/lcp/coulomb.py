@@ -11,9 +11,9 @@ is in the way. It grows in each pass by what the four gaps lack of a plane, say 
 passes. The limit leaves w_n as it is, and λ_n moves on until a corner lifts. Where the gaps are in a plane,
 each way to share is right, and has its own friction and its own velocities: Coulomb's law has many solutions.
 
-The error of a contact is how far λ is from P(λ − Φ(w)/A_cc), times A_cc: a velocity. Φ adds μ|w_t| to w_n for
-Coulomb's law, and γ λ_n for what gives way; P is the projection on the cone, or on a row's bounds. It is 0 just
-where the law holds, and about |w| where a contact that sticks still moves.
+The error of a contact is how far λ is from P(λ − Φ(w)/A_cc), times A_cc: a velocity. Φ adds μ|w_t| to w_n
+for Coulomb's law, and γ λ_n for what gives way; P is the projection on the cone, or on a row's bounds. It is
+0 just where the law holds, and about |w| where a contact that sticks still moves.
 
 Slides S10, S14; lectures/08_newton_lcp.md. Source: De Saxcé & Feng, Math. Comput. Modelling 28 (1998) 225;
 Haslinger, Math. Methods Appl. Sci. 5 (1983) 422 (fixed point of the limit).
@@ -25,15 +25,28 @@ from ..compiled import inner, inner_apart
 
 
 @inner
-def renew_shift(rows, w, law):
-    """The shift ← μ|w_t|. Returns the worst change, m/s."""
-    worst = 0.0
+def begin_shift(rows, w, law):
+    """The shift that belongs to w, and nothing known of how the shift answers."""
     for q in range(len(rows.μ)):
-        if rows.μ[q] > 0:
-            new = rows.μ[q] * along(rows, q, w)
-            worst = max(worst, abs(new - law.shift[q]))
-            law.shift[q] = new
-    return worst
+        law.answer[q, 0], law.answer[q, 1] = np.inf, 0.0
+        law.shift[q] = max(rows.μ[q], 0.0) * along(rows, q, w)
+
+
+@inner
+def renew_shift(rows, w, law):
+    """The shift ← μ|w_t|, or further.
+
+    μ|w_t| answers to a change of the shift, by μ²/(1 + μ²) of it where A is a multiple of 1. Each contact's
+    last two answers tell by how much, and its shift goes where it answers to itself (the secant method).
+    """
+    for q in range(len(rows.μ)):
+        if rows.μ[q] <= 0:
+            continue
+        new, old = rows.μ[q] * along(rows, q, w), law.shift[q]
+        change, changed = new - old, old - law.answer[q, 0]
+        share = (new - law.answer[q, 1]) / changed if abs(changed) > 1e-12 * abs(new) else 0.0
+        law.answer[q, 0], law.answer[q, 1] = old, new
+        law.shift[q] = max(0.0, old + change / (1 - min(max(share, -1.0), 0.8)))
 
 
 @inner

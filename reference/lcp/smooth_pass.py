@@ -2,8 +2,8 @@
 
 The matrix M + ρ Jᵀ P′ J has one block a body, not one a contact, and stays regular where contacts are
 redundant. It changes only with what sticks, slides or parts; where nothing of that changes, its factor
-serves again. Step halving asks that the augmented Lagrangian falls; where the shift follows there is none, and
-what is left of the equation of motion must fall instead: that may fail far from the answer.
+serves again. Step halving asks that the augmented Lagrangian falls; where the shift follows there is none,
+and what is left of the equation of motion must fall instead: that may fail far from the answer.
 
 Slides S14; lectures/08_newton_lcp.md. Source: Qi & Sun, Math. Programming 58 (1993) 353 (semismooth Newton).
 """

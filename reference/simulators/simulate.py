@@ -127,7 +127,7 @@ class Simulation:
         worst = solves[:, 1].max()
         if self.status == "ok" and worst > (JOINED if self.bodies.joints else self.tolerance):
             self.reason = (
-                f"some steps stopped at {self.iterations} iterations with a residual up to {worst:.2g}, "
+                f"some steps stopped within {self.iterations} iterations with a residual up to {worst:.2g}, "
                 f"above the tolerance {self.tolerance:g}"
             )
 

@@ -1,4 +1,4 @@
-"""The factors of a sparse matrix of blocks, against NumPy's dense solution; the order, against what is known of it."""
+"""The factors of a sparse matrix of blocks, against NumPy's solution; the order, against what is known."""
 
 import numpy as np
 import pytest

@@ -77,19 +77,18 @@ def solved(rows, M, free, start):
 
 @pytest.mark.parametrize("seeds", [range(1, 6), pytest.param(range(6, 80), marks=pytest.mark.slow)])
 def test_boxes_on_sliding_spinning_boxes(seeds):
-    """Before friction's limits were tried, a fifth of such problems stayed unsolved. Of many, 1 % may,
-    and must say so; no energy comes in.
-    """
+    """Of such problems 2 % may stay unsolved, and must say so, within 1e-7 of the law; no energy comes in."""
     steps = unsolved = 0
     for seed in seeds:
         run = simulate(falling(seed), 0.4, FRAME)
         assert run.status == "ok", seed
         here = np.count_nonzero(run.residual > TOLERANCE)
+        assert run.residual.max() < 1e-7, seed
         assert (here > 0) == ("some steps stopped" in run.reason), seed
         steps, unsolved = steps + len(run.time) - 1, unsolved + here
         energy = run.energy()
-        assert here or rise(energy) < 1e-6 * np.abs(energy).max(), seed
-    assert unsolved <= (0.01 * steps if len(seeds) > 5 else 0)
+        assert rise(energy) < 1e-6 * np.abs(energy).max(), seed
+    assert unsolved <= 0.02 * steps
 
 
 @pytest.mark.parametrize("seed", [1, 3, 5])
