@@ -56,6 +56,28 @@ def test_bodies_added_in_another_order_make_the_same_contacts_and_velocities(d, 
         np.testing.assert_allclose(a[number], b, atol=100 * 1e-12 * scale / 0.2)  # ω: over .2 m
 
 
+@pytest.mark.parametrize(
+    "n, d, seed, worst, unsolved",
+    [
+        (40, 2, 0, 1e-8, 0.02),
+        (40, 2, 1, 1e-8, 0.02),
+        pytest.param(100, 2, 0, 1e-4, 0.3, marks=pytest.mark.slow),
+        pytest.param(30, 3, 0, 1e-8, 0.05, marks=pytest.mark.slow),
+    ],
+)
+def test_a_heap_comes_to_rest(n, d, seed, worst, unsolved):
+    """The box bears the weight, nothing moves any more, and no energy came in on the way, whatever share of
+    the steps was left short of the solver's tolerance: that is told.
+    """
+    case = CASES["heap"](n=n, dimension=d, seed=seed, duration=2.5)
+    run = simulate(case.scene, case.duration, FRAME)
+    assert run.status == "ok" and case.error(run) < worst
+    energy = run.energy()
+    assert np.max(energy - np.minimum.accumulate(energy)) < 1e-6 * energy[0]
+    short = np.count_nonzero(run.residual > 1e-12)
+    assert short <= unsolved * (len(run.time) - 1) and (short > 0) == ("some steps stopped" in run.reason)
+
+
 @pytest.mark.study
 def test_666_spheres_come_to_rest():
     case = CASES["heap"](duration=6.0)
