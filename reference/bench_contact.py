@@ -185,7 +185,7 @@ CONTACTS = Catalogue(
             ContactContest("stack/20/1000", "stack", {"n": 20, "heavy": 1000}),
             ContactContest("stack/50", "stack", {"n": 50}),
             ContactContest("slope/creep", "slope"),
-            ContactContest("slope/slide", "slope", {"share": 0.95}),
+            ContactContest("slope/slide", "slope", {"share": 0.95}, ({"rate": 10}, {"rate": 60})),
             ContactContest("arch", "arch", both=False),
             ContactContest("heavy_on_two/400", "heavy_on_two"),
             ContactContest("card_house/3", "card_house", {"storeys": 3}, both=False),

@@ -85,11 +85,14 @@ def add_block(factor, i, j, row, column, weight):
 
 
 @inner
-def factorise(factor):
-    """The matrix becomes its factors. Returns whether all pivots could be divided by."""
-    p = factor.pattern
+def factorise(factor, symmetric):
+    """The matrix becomes its factors. Returns whether all pivots could be divided by.
+
+    symmetric: it is, so what stands above the diagonal need not be looked at, and half the work is saved.
+    """
+    p, f = factor.pattern, factor
     return factorise_blocks(
-        p.start, p.row, p.left, p.column, p.at, factor.diagonal, factor.below, factor.above, factor.where
+        p.start, p.row, p.left, p.column, p.at, f.diagonal, f.below, f.above, f.where, symmetric
     )
 
 
@@ -101,7 +104,7 @@ def solve(factor, x, out):
 
 
 @inner_apart
-def factorise_blocks(start, row, left, column, at, diagonal, below, above, where):
+def factorise_blocks(start, row, left, column, at, diagonal, below, above, where, symmetric):
     """``factorise``, array by array."""
     for j in range(len(diagonal)):
         for q in range(start[j], start[j + 1]):
@@ -111,13 +114,24 @@ def factorise_blocks(start, row, left, column, at, diagonal, below, above, where
             subtract_product(diagonal[j], below[first], above[first])
             for r in range(first + 1, end):
                 subtract_product(below[where[row[r]]], below[r], above[first])
-                subtract_product(above[where[row[r]]], below[first], above[r])
+                if not symmetric:
+                    subtract_product(above[where[row[r]]], below[first], above[r])
         if not factorise_one(diagonal[j]):
             return False
         for q in range(start[j], start[j + 1]):
+            if symmetric:
+                transpose(below[q], above[q])
             divide_by_upper(below[q], diagonal[j])
             divide_by_lower(above[q], diagonal[j])
     return True
+
+
+@inner
+def transpose(A, to):
+    """Aᵀ."""
+    for a in range(len(A)):
+        for b in range(len(A)):
+            to[b, a] = A[a, b]
 
 
 @inner

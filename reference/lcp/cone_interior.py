@@ -60,7 +60,7 @@ def start_inside(rows, M, free, coulomb, near, λ, u, size, scale, factor, out):
         if off <= near * scale or since == PATIENCE:
             break
         fill_matrix(rows, M, ρ, out, factor)
-        if not factorise(factor.blocks):
+        if not factorise(factor.blocks, not coulomb):
             break
         way = 1.0
         for correcting in range(2):

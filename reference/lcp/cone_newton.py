@@ -44,7 +44,7 @@ from .velocity_form import velocity_form
 
 __all__ = ["ContactRows", "cone_newton", "cone_newton_kernel"]
 
-NEAR = 1e-4  # ε at first
+NEAR = 1e-5  # ε at first
 WEIGHTS = (1e-6, 1e-8, 1e-10, 1e-4, 1e-2)  # and then: smaller where passes are slow, larger to polish, for
 POLISH = (1e-4, 1e-3, 1e-2, 1e-6, 1e-8, 1e-4, 1e-2)  # w's rounding is 1e-16/ε of λ; and from near the answer
 FEW, MANY = 12, 25  # Newton steps in a pass, from a start that may be far, and from inside
@@ -127,7 +127,7 @@ def solve_pass(rows, M, free, softness, follows, λ, u, ε, room, wanted, most):
             factor.made[q] = -1
         law.ρ[q], law.give[q] = ρ, 1 + ρ * softness[q]
     steps = solve_smooth(rows, M, free, λ, law, False, factor, u, 0.1 * wanted, out, trial, most)
-    if not follows or worst_change(rows, out.w, law) <= ROOM * wanted:
+    if not follows or worst_change(rows, out, law) <= ROOM * wanted:
         return steps
     copy_all(u, kept)
     held = max(breach(rows, size, softness, True, out.λ, out.w), worst_rate(M, out.gradient))

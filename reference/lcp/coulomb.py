@@ -22,6 +22,7 @@ Haslinger, Math. Methods Appl. Sci. 5 (1983) 422 (fixed point of the limit).
 import numpy as np
 
 from ..compiled import inner, inner_apart
+from .augmented import SLIDES
 
 
 @inner
@@ -66,12 +67,12 @@ def no_limit(law):
 
 
 @inner
-def worst_change(rows, w, law):
-    """By how much the shift that w asks for differs at the most from the one that was used, m/s."""
+def worst_change(rows, out, law):
+    """The most by which the shift that w asks for, where contacts slide, differs from the one used, m/s."""
     worst = 0.0
     for q in range(len(rows.μ)):
-        if rows.μ[q] > 0:
-            worst = max(worst, abs(rows.μ[q] * along(rows, q, w) - law.shift[q]))
+        if rows.μ[q] > 0 and out.state[q] >= SLIDES:
+            worst = max(worst, abs(rows.μ[q] * along(rows, q, out.w) - law.shift[q]))
     return worst
 
 

@@ -52,7 +52,7 @@ def solve_smooth(rows, M, free, λ, law, follows, factor, u, tolerance, out, tri
             return step
         if not fresh:
             fill_matrix(rows, M, law.ρ, out, factor)
-            if not factorise(factor.blocks):
+            if not factorise(factor.blocks, not follows):
                 return most
             if follows:
                 forget(factor)

@@ -22,8 +22,8 @@ def add(factor, i, j, row, column, weight):
 
 
 @compiled
-def factorise_and_solve(factor, x, out):
-    good = factorise(factor)
+def factorise_and_solve(factor, symmetric, x, out):
+    good = factorise(factor, symmetric)
     if good:
         solve(factor, x, out)
     return good
@@ -73,8 +73,9 @@ def test_a_chain_and_a_tree_are_not_filled_and_a_grid_little():
 
 
 @pytest.mark.parametrize("k", [3, 6])
+@pytest.mark.parametrize("symmetric", [False, True])
 @pytest.mark.parametrize("seed", range(4))
-def test_the_factor_solves_what_numpy_solves(seed, k):
+def test_the_factors_solve_what_numpy_solves(seed, symmetric, k):
     random = np.random.default_rng(seed)
     n = int(random.integers(1, 15))
     pairs = random_pairs(random, n, 3 * n)
@@ -83,13 +84,14 @@ def test_the_factor_solves_what_numpy_solves(seed, k):
         factor.diagonal[i] = whole[p, :, p] = np.eye(k)
     for pair in pairs:
         rows, columns = random.normal(size=(2, 2, k))
+        columns = rows if symmetric else columns
         for a in range(2):
             for b in range(2):
                 if pair[a] >= 0 and pair[b] >= 0:
                     add(factor, pair[a], pair[b], rows[a], columns[b], 0.1)
                     whole[pair[a], :, pair[b]] += 0.1 * np.outer(rows[a], columns[b])
     x, found = random.normal(size=(n, k)), np.zeros((n, k))
-    assert factorise_and_solve(factor, x, found)
+    assert factorise_and_solve(factor, symmetric, x, found)
     expected = np.linalg.solve(whole.reshape(n * k, n * k), x.ravel())
     np.testing.assert_allclose(found.ravel(), expected, rtol=1e-8, atol=1e-8)
 
@@ -97,4 +99,4 @@ def test_the_factor_solves_what_numpy_solves(seed, k):
 def test_a_pivot_of_0_is_told():
     factor = empty(np.array([(0, 1)]), 2, 3)
     factor.diagonal[0] = np.eye(3)
-    assert not factorise_and_solve(factor, np.ones((2, 3)), np.ones((2, 3)))
+    assert not factorise_and_solve(factor, False, np.ones((2, 3)), np.ones((2, 3)))
