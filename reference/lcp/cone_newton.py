@@ -44,7 +44,7 @@ from .velocity_form import velocity_form
 
 __all__ = ["ContactRows", "cone_newton", "cone_newton_kernel"]
 
-NEAR = 1e-5  # ε at first
+NEAR = 1e-4  # ε at first
 WEIGHTS = (1e-6, 1e-8, 1e-10, 1e-4, 1e-2)  # and then: smaller where passes are slow, larger to polish, for
 POLISH = (1e-4, 1e-3, 1e-2, 1e-6, 1e-8, 1e-4, 1e-2)  # w's rounding is 1e-16/ε of λ; and from near the answer
 FEW, MANY = 12, 25  # Newton steps in a pass, from a start that may be far, and from inside
