@@ -77,8 +77,8 @@ def solved(rows, M, free, start):
 
 @pytest.mark.parametrize("seeds", [range(1, 6), pytest.param(range(6, 80), marks=pytest.mark.slow)])
 def test_boxes_on_sliding_spinning_boxes(seeds):
-    """Of such problems 2 % may stay unsolved, and must say so, within 1e-7 of the law. No energy comes in, but
-    for what turning in contact gives: in one of a hundred runs 4e-6 of the whole.
+    """Of such problems 2 % may stay unsolved, and must say so, within 1e-7 of the law. No energy comes in
+    but for what turning in contact gives: in one of a hundred runs 4e-6 of the whole.
     """
     steps = unsolved = 0
     for seed in seeds:
