@@ -24,7 +24,7 @@ from .augmented import STICKS, ContactRows, dot
 from .block_lu import factorise, solve
 from .inside_step import Inside, advance, look, move_along, pull
 from .round_cone import aim, find_scaling, put_inverse_square
-from .smooth_pass import fill_matrix, forget
+from .smooth_pass import copy_all, fill_matrix, forget
 
 MOST_STEPS, PATIENCE = 60, 8  # steps in all, and without getting nearer
 SMALLEST_FRICTION = 1e-3  # less is taken for this: z and s would be too thin to be computed with
@@ -46,9 +46,7 @@ def start_inside(rows, M, free, coulomb, near, λ, u, size, scale, factor, out):
         np.zeros(m), np.zeros((m, 3)), np.zeros(len(size)), np.zeros((4, 3)),
     )  # fmt: skip
     right, ρ, cones = np.empty_like(u), np.ones(len(size)), begin(rows, unit, size, scale, inside, out)
-    for i in range(len(u)):
-        for a in range(u.shape[1]):
-            u[i, a] = free[i, a]
+    copy_all(free, u)
     steps, best, best_u, since = 0, np.inf, u.copy(), 0
     while steps < MOST_STEPS:
         off = look(rows, M, free, coulomb, u, inside, out.gradient, unit)
@@ -72,9 +70,7 @@ def start_inside(rows, M, free, coulomb, near, λ, u, size, scale, factor, out):
             break
         advance(min(1.0, BACK * way), factor.move, u, inside)
         steps += 1
-    for i in range(len(u)):
-        for a in range(u.shape[1]):
-            u[i, a] = best_u[i, a]
+    copy_all(best_u, u)
     forget(factor)
     return steps
 
@@ -84,9 +80,7 @@ def keep(unit, z, u, λ, best_u):
     """λ and u as they are now."""
     for r in range(len(λ)):
         λ[r] = unit[r] * z[r]
-    for i in range(len(u)):
-        for a in range(u.shape[1]):
-            best_u[i, a] = u[i, a]
+    copy_all(u, best_u)
 
 
 @inner_apart

@@ -93,7 +93,7 @@ def test_the_factors_solve_what_numpy_solves(seed, symmetric, k):
     x, found = random.normal(size=(n, k)), np.zeros((n, k))
     assert factorise_and_solve(factor, symmetric, x, found)
     expected = np.linalg.solve(whole.reshape(n * k, n * k), x.ravel())
-    np.testing.assert_allclose(found.ravel(), expected, rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(found.ravel(), expected, rtol=1e-9, atol=1e-11)
 
 
 def test_a_pivot_of_0_is_told():
