@@ -121,7 +121,7 @@ def find_still(rows, M, before, free, λ, label, still, room, rest, tolerance):
     for i in range(n):
         island = label[i]
         for a in range(k):
-            if before[i, a] != 0:
+            if before[i, a] != 0 or not np.isfinite(free[i, a]):
                 wrong[island] = 1.0
             push[island] = max(push[island], abs(free[i, a]))
             off[island] = max(off[island], abs(rest[i, a] + dot(M[i, a], free[i])) / M[i, a, a])
