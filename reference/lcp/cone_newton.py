@@ -47,12 +47,14 @@ __all__ = ["ContactRows", "cone_newton", "cone_newton_kernel"]
 NEAR = 1e-4  # ε at first
 WEIGHTS = (1e-6, 1e-8, 1e-10, 1e-4, 1e-2)  # and then: smaller where passes are slow, larger to polish, for
 POLISH = (1e-4, 1e-3, 1e-2, 1e-6, 1e-8, 1e-4, 1e-2)  # w's rounding is 1e-16/ε of λ; and from near the answer
+SINGLE, TURNS = 2, 10  # so few contacts are first solved one by one, exactly, and so often
 FEW, MANY = 12, 25  # Newton steps in a pass, from a start that may be far, and from inside
 LIMITED = (1e-8, 1e-10, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-4)  # of passes with limits: λ must get somewhere
 ROUGH, CLOSE = 1e-3, 1e-8  # errors until which to come from inside
 SWEEPS, MOST_STARTS = 8, 6  # sweeps at first, then twice as many each time; how often passes begin again
 NEARLY = 1e-9  # an error from which beginning again leads nowhere: it is rounding
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # to polish λ itself, as ``problem.residual`` asks
+KNOWN = 1e-13  # share of the terms of w to which w is known: rounding, as the weights ρ enlarge it
 ROOM = 1e-3  # of the tolerance, for which no shift need follow
 
 
@@ -73,7 +75,8 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
 
     softness (B,): γ of each block's first row, which gives way: w = J u + c + γ λ. Returns (u, passes,
     error): how far they are from the law (``coulomb.breach``) and from M (u − free) = Jᵀ λ, m/s, over the
-    worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with.
+    worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with. One contact by
+    itself is solved exactly, without a pass.
     """
     (n, k), blocks = free.shape, len(rows.μ)
     room = Room(
@@ -82,11 +85,18 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
     )  # fmt: skip
     moves, u = np.empty(rows.J.shape), free.copy()
     fill_moves(rows, M, moves)
-    scale = block_sizes(rows, moves, free, room.size)
+    scale, terms = block_sizes(rows, moves, free, room.size)
+    if tolerance > 0:  # w can't be known better than the terms that it is a sum of
+        scale = max(scale, KNOWN * terms / tolerance)
     if scale == 0:
         λ[:] = 0
         return u, 0, 0.0
     add_rows(rows.bodies, moves, λ, u)
+    if blocks <= SINGLE:
+        error = by_sweeps(rows, free, moves, softness, coulomb, λ, u, tolerance * scale, room.size) / scale
+        if error <= tolerance:
+            history[:1] = error
+            return u, 1, error
     if coulomb:
         begin_shift(rows, velocities(rows, u), room.law)
     best_λ, best_u, best = λ.copy(), u.copy(), np.inf
@@ -115,6 +125,15 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
         ε, weight, start, most, last = POLISH[0], 0, start + 1, MANY, np.inf
     λ[:] = best_λ
     return best_u, passes + 1, best
+
+
+@compiled_apart
+def by_sweeps(rows, free, moves, softness, coulomb, λ, u, wanted, size):
+    """λ and u, in place, after a few sweeps over the contacts. Returns the error, m/s."""
+    sweep_contacts(rows, moves, softness, coulomb, λ, u, 0.1 * wanted, TURNS)
+    u[:] = free
+    add_rows(rows.bodies, moves, λ, u)
+    return breach(rows, size, softness, coulomb, λ, velocities(rows, u))
 
 
 @inner_apart
@@ -193,18 +212,23 @@ def velocities(rows, u):
 
 @compiled_apart
 def block_sizes(rows, moves, free, size):
-    """A's largest diagonal entry of each block; returns the worst |w| of the free velocities."""
-    scale = 0.0
+    """A's largest diagonal entry of each block; returns the worst |w| of the free velocities, and the worst sum
+    of its terms' sizes, m/s.
+    """
+    scale, worst = 0.0, 0.0
     for q in range(len(size)):
         size[q] = 0.0
         for r in range(rows.block[q], rows.block[q + 1]):
-            diagonal = 0.0
+            diagonal, terms = 0.0, abs(rows.c[r])
             for side in range(2):
-                if rows.bodies[r, side] >= 0:
+                i = rows.bodies[r, side]
+                if i >= 0:
                     diagonal += dot(rows.J[r, side], moves[r, side])
+                    for a in range(free.shape[1]):
+                        terms += abs(rows.J[r, side, a] * free[i, a])
             size[q] = max(size[q], diagonal)
-            scale = max(scale, abs(velocity(rows, r, free)))
-    return scale
+            scale, worst = max(scale, abs(velocity(rows, r, free))), max(worst, terms)
+    return scale, worst
 
 
 def cone_newton(problem, start=None, tolerance=1e-10, max_iterations=1000):

@@ -54,7 +54,7 @@ def look_ahead(contacts, speeds, filled, h, left, closed):
             hard = impact_energy(contacts, q, w[q], speeds.M, room) > MATTERS * energy
         if near:
             strikes = strikes or (w[q] < 0 and e[q] > 0) or hard
-            to_come[q] = rebounds and w[q] > 0 and w[q] + left * rate[q] < 0
+            to_come[q] = rebounds and w[q] + left * rate[q] < 0 and 2 * w[q] > -SHORT * h * rate[q]
         else:
             to_come[q] = hard or (rebounds and comes)
     return w, rate, e, strikes, to_come

@@ -67,7 +67,7 @@ def flight(solve, system, state, work, speeds, contacts, held, known, pushed, h,
     moving = leave_out_rest(rows, speeds.M, speeds.before, free, λ, limits.tolerance)
     found = solve(moving.rows, moving.M, moving.free, moving.λ, limits, worst)
     after = put_back(moving, found, λ, free)
-    finish(system, state, work, speeds.before, rows, gap, free, after, λ, h, limits)
+    finish(system, state, work, speeds.M, speeds.before, rows, gap, free, after, λ, h, limits)
     return key, spread(rows, λ, len(key), state.x.shape[1]), λ
 
 
@@ -86,12 +86,12 @@ def prepare(contacts, held, speeds, known, pushed, h, share, limits):
 
 
 @compiled_apart
-def finish(system, state, work, before, rows, gap, free, after, λ, h, limits):
+def finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits):
     """Rest, and the new positions and velocities, once u⁺ = ``after`` is known."""
-    label, room = label_islands(rows.bodies, len(after)), np.zeros((6, len(after)))
+    label, room = label_islands(rows.bodies, len(after)), np.zeros((7, len(after)))
     let_rest(label, rows, λ, before, free, after, REST * limits.tolerance, room[:3])
     used = np.empty_like(after)
-    choose_velocities(rows, label, gap, before, after, λ, h, limits.closed, used, room[3:])
+    choose_velocities(rows, label, gap, M, before, free, after, λ, h, limits.closed, used, room[3:])
     move(system, used, after, h, state, work)
 
 
@@ -157,14 +157,12 @@ def scatter_velocities(system, u, state):
 
 
 @inner
-def choose_velocities(rows, label, gap, before, after, λ, h, slack, used, room):
-    """Into used (n, k): with which velocity each body moves. gap (m,), m, of each contact; slack, m: a
-    gap that counts as none; room (3, n), zeros.
-
-    Returns whether all move with the mean.
+def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, used, room):
+    """Into used (n, k): with which velocity u + θ (u⁺ − u) each body moves. gap (m,), m, of each contact;
+    slack, m: a gap that counts as none; room (4, n), zeros.
     """
     n, k = before.shape
-    work, size, lands = room[0], room[1], room[2]
+    work, size, lands, force = room[0], room[1], room[2], room[3]
     for q in range(len(gap)):
         first = rows.block[q]
         i, j = rows.bodies[first, 0], rows.bodies[first, 1]
@@ -181,17 +179,19 @@ def choose_velocities(rows, label, gap, before, after, λ, h, slack, used, room)
             size[island] += 0.5 * abs(λ[r]) * terms
             if r == first and gap[q] + 0.5 * h * twice < -slack:
                 lands[island] = 1.0
-    mean = True
+    for i in range(n):
+        for a in range(k):
+            for b in range(k):
+                force[label[i]] += (free[i, a] - before[i, a]) * M[i, a, b] * (after[i, b] - before[i, b])
     for i in range(n):
         island = label[i]
-        if lands[island] > 0 or work[island] > NO_WORK * size[island]:
-            mean = False
-            for a in range(k):
-                used[i, a] = after[i, a]
-        else:
-            for a in range(k):
-                used[i, a] = 0.5 * (before[i, a] + after[i, a])
-    return mean
+        θ = 0.5
+        if lands[island] > 0:
+            θ = 1.0
+        elif work[island] > NO_WORK * size[island]:
+            θ = 0.5 + work[island] / force[island] if force[island] > 2 * work[island] else 1.0
+        for a in range(k):
+            used[i, a] = before[i, a] + θ * (after[i, a] - before[i, a])
 
 
 @inner
