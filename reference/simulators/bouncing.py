@@ -24,7 +24,7 @@ MOST_IMPACTS = 100  # in one step; after them nothing bounces any more until the
 SHORT = 1e-3  # of a step
 HARD = 0.5  # times what forces change the speed by in a step: a landing that is faster is hard
 MATTERS = 0.02  # of the energy of motion: a landing that takes less isn't worth a step of the whole scene
-MOST_TRIES = 60  # at the time of an impact
+MOST_TRIES, SURE = 60, 12  # at the time of an impact; so many by parabolas, the others by halves
 SHORTEST = 1e-9  # of the time searched: less is no flight
 
 
@@ -120,29 +120,49 @@ def hop(sim, contacts, h, left):
         sim.fly(others, time)
         return gaps_now(coming, others, sim.find(left), sim.limits.bodies)
 
-    def gap_after(time):
-        return gaps_after(time).min() - slack
-
     gaps, end = gaps_after(left), left
-    gap = gaps.min() - slack
     expected = coming.gap + left * (w + 0.5 * left * rate)  # had it flown straight on, unhindered
     through = (expected < -sim.closed) & (coming.gap > sim.closed) & np.isinf(gaps)
-    if gap >= 0 and not through.any():
-        return left
-    if gap >= 0:  # right through the other, or past it: look for the moment when it was there
+    if gaps.min() >= slack:
+        if not through.any():
+            return left
+        # right through the other, or past it: look for the moment when it was there
         end = left * (coming.gap[through] / (coming.gap[through] - expected[through])).min()
-        gap = gap_after(end)
-    begin, height = 0.0, coming.gap.min()
-    turning = (coming.gap <= sim.closed) & (rate < 0)
-    if turning.any():  # what leaves comes back after it has turned round: the first of them
-        q = np.argmin(np.where(turning, -w / np.where(turning, rate, 1.0), np.inf))
-        begin, height = -w[q] / rate[q], coming.gap[q] - 0.5 * w[q] ** 2 / rate[q]
-    else:
-        q = np.argmin(expected)
-    if not begin < end:
-        begin = 1e-6 * end
-    guess = first_guess(coming.gap[q] - slack, w[q], gap, end)
-    return root(gap_after, begin, end, height, gap, guess, slack)
+        gaps = gaps_after(end)
+        if gaps.min() >= 0:
+            return end
+    low, high, time = 0.0, end, meeting(coming.gap, w, gaps, end, slack)
+    for tries in range(MOST_TRIES):
+        if tries > SURE or not low < time < high:
+            time = 0.5 * (low + high)
+        gaps = gaps_after(time)
+        gap = gaps.min() - slack
+        if abs(gap) <= slack or high - low <= SHORTEST * end:
+            break
+        low, high = (time, high) if gap > 0 else (low, time)
+        time = meeting(coming.gap, w, gaps, time, slack)
+    return time
+
+
+@compiled
+def meeting(gap, w, gap_end, end, slack):
+    """The first of the times at which contacts (c,) meet that are gap apart now, and gap_end at the time end.
+
+    Each gap is taken for a parabola, gap + w t + ½ a t²: right for free flight, and the better for any other
+    the nearer the end is to the answer. inf, where none meets.
+    """
+    first = np.inf
+    for q in range(len(gap)):
+        a = 2 * (gap_end[q] - gap[q] - w[q] * end) / end**2
+        under = w[q] * w[q] - 2 * a * (gap[q] - slack)
+        if not (under >= 0 and gap_end[q] < np.inf):
+            continue
+        root = np.sqrt(under)
+        if w[q] < 0:
+            first = min(first, 2 * (gap[q] - slack) / (root - w[q]))
+        elif a < 0:
+            first = min(first, (w[q] + root) / -a)
+    return first
 
 
 def motion(sim, contacts):
@@ -177,44 +197,3 @@ def same_side(n, other):
     for a in range(len(n)):
         product += n[a] * other[a]
     return product > 0
-
-
-def first_guess(gap, w, gap_end, end):
-    """When a body that flies as a stone does meets the other: gap now, closing at −w, and gap_end at the end.
-
-    The gap is then a parabola: gap + w t + ½ a t², which is right for free flight, and nearly for any other.
-    """
-    a = 2 * (gap_end - gap - w * end) / end**2
-    under = w * w - 2 * a * gap
-    if not under > 0:
-        return 0.5 * end
-    return 2 * gap / (np.sqrt(under) - w) if w < 0 else (w + np.sqrt(under)) / -a
-
-
-def root(f, begin, end, f_begin, f_end, guess, tolerance):
-    """The time in (begin, end] where f goes from + to −, to |f| ≤ tolerance, by the Illinois method.
-
-    The last call of f is at the time that is returned; where f has no such change of sign that is
-    ``end``. f_begin: an estimate is enough. Source: Dowell & Jarratt, BIT 11 (1971) 168.
-    """
-    if abs(f_end) <= tolerance or f_end > 0:
-        return end
-    low, high, f_low, f_high, kept = begin, end, f_begin, f_end, 0
-    time = guess
-    for _ in range(MOST_TRIES):
-        if not low < time < high:
-            time = low + 0.5 * (high - low)
-        value = f(time)
-        if abs(value) <= tolerance or time - low <= SHORTEST * end:
-            break
-        if value > 0:  # kept: which end stayed in the last try: −1 the lower, 1 the upper
-            low, f_low, f_high = time, value, f_high / 2 if kept == 1 else f_high
-            kept = 1
-        else:
-            high, f_high, f_low = time, value, f_low / 2 if kept == -1 else f_low
-            kept = -1
-        steep = f_low - f_high
-        time = low + (high - low) * (f_low / steep if np.isfinite(steep) and f_low > 0 else 0.5)
-    else:
-        f(time)
-    return time

@@ -11,7 +11,7 @@ import numpy as np
 from ..compiled import compiled, inner, lean
 from ..integrators import copy
 from .bouncing import look_ahead
-from .lifting import DEEP, MOST_LIFTS, deepest, slow_down
+from .lifting import DEEP, MOST_LIFTS, deepest, energies, slow_down, told_depth
 from .smooth import all_finite
 
 
@@ -22,14 +22,14 @@ def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, c
 
     Returns how many are done; whether the last left the state as it was; ``pushed`` now; and the impulses of
     the last step. It ends before a step that is none of the ordinary, or whose state would not be finite. The
-    energy that lifting added, J, is added to lifted (1,).
+    energy that lifting added, J, is added to lifted[0]; lifted[1] is the deepest that stayed in each other, m.
     """
     solids, grid, pairs, spare, raw = collider
     before, start, impulse = state.y.copy(), state.x.copy(), pushed[1]
-    label = numbers(len(start))
+    label, had = numbers(len(start)), np.zeros(len(start))
     for done in range(steps):
         copy(state.y, before)
-        lifts, unpaid = 0, 0.0
+        lifts, unpaid, stays = 0, 0.0, 0.0
         while True:  # find the contacts, and lift apart what overlaps
             fill_free(system, t + done * h, h, state, speeds)
             margin = reach(speeds, h, limits.closed)
@@ -39,11 +39,12 @@ def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, c
                 break
             if lifts == 0:
                 copy_positions(state.x, start)
-                label = numbers(len(start))
+                label, had = numbers(len(start)), energies(speeds.M, speeds.before)
             raise_apart(state, contacts, held, speeds, label, limits, worst)
             lifts += 1
         if lifts > 0:
-            unpaid = slow_down(system, state, start, label, speeds)
+            stays = told_depth(contacts, limits.closed)
+            unpaid = slow_down(system, state, start, had, label, speeds)
             fill_free(system, t + done * h, h, state, speeds)
         if not (room and quiet(contacts, speeds, h, limits)):
             copy(before, state.y)
@@ -55,6 +56,7 @@ def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, c
             copy(before, state.y)
             return done, False, pushed, impulse
         lifted[0] += unpaid
+        lifted[1] = max(lifted[1], stays)
         impulse = made
         if limits.warm:
             pushed = key, over(impulse, h)

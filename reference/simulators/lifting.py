@@ -1,9 +1,9 @@
 """What went into each other is lifted apart, and joints are closed, by the smallest move that does it (S13).
 
 Smallest in the measure of the kinetic energy: δ with ½ |δ|²_M least and gap + J δ ≥ 0 for all contacts
-near, again and again until none is deep. Lifting adds potential energy, which is taken from the speed of
-the same bodies, as far as they have any. What is left is counted: it is the energy that lifting out an
-overlap adds.
+near, again and again until none is deep. Lifting adds potential energy, and turning a body in space that spins
+may add energy of motion; both are taken from the speed of the same bodies, as far as they have any. What is
+left is counted: it is the energy that lifting out an overlap adds.
 
 Slides S12, S13; lectures/05_contact.md.
 """
@@ -28,7 +28,7 @@ def lift(sim, contacts, h):
     """
     if depth(sim, contacts) <= DEEP * sim.closed:
         return contacts
-    label, start = np.arange(len(sim.before)), sim.state.x.copy()
+    label, start, had = np.arange(len(sim.before)), sim.state.x.copy(), energies(sim.M, sim.before)
     for _ in range(MOST_LIFTS):
         held = sim.held.rows_with(*sim.held.to_lift())
         sim.raise_apart(sim.state, contacts, held, sim.speeds, label, sim.limits, sim.worst)
@@ -36,10 +36,11 @@ def lift(sim, contacts, h):
         contacts = sim.find(h)
         if depth(sim, contacts) <= sim.closed:
             break
+    sim.lifted[1] = max(sim.lifted[1], told_depth(contacts, sim.closed))
     if sim.held.worst() > TORN * sim.held.size:
         sim.open = sim.held.worst()
         sim.state.y[:] = np.nan  # which ends the run: no step may be built on joints that don't close
-    sim.lifted[0] += slow_down(sim.system, sim.state, start, label, sim.speeds)
+    sim.lifted[0] += slow_down(sim.system, sim.state, start, had, label, sim.speeds)
     sim.fill(sim.now, h)
     return contacts
 
@@ -47,6 +48,13 @@ def lift(sim, contacts, h):
 def depth(sim, contacts):
     """How deep in each other, or how far from closed, anything is at the most, m (a turn, rad, of joints)."""
     return max(-contacts.gap.min(initial=0.0), sim.held.worst())
+
+
+@compiled
+def told_depth(contacts, closed):
+    """How deep in each other two bodies still are after lifting, m; 0 where it is what rounding explains."""
+    depth = deepest(contacts)
+    return depth if depth > DEEP * closed else 0.0
 
 
 @compiled
@@ -100,37 +108,49 @@ def displace_by(state, δ):
 
 
 @compiled_apart
-def slow_down(system, state, start, label, speeds):
-    """Take the energy that lifting from start (n, d) gave from the speeds; returns what is not paid, J."""
+def slow_down(system, state, start, had, label, speeds):
+    """Take the energy that lifting gave from the speeds; returns what is not paid, J. start (n, d), had (n,):
+    where the bodies were, and their energies of motion.
+    """
+    has = energies(speeds.M, speeds.before)
     gain = np.zeros(len(start))
     for i in range(len(start)):
+        gain[i] = has[i] - had[i]
         for a in range(start.shape[1]):
             gain[i] -= system.mass[i] * system.gravity[a] * (state.x[i, a] - start[i, a])
-    unpaid = pay(label, gain, speeds.M, speeds.before, np.zeros((2, len(start))))
+    unpaid = pay(label, gain, has, speeds.before, np.zeros((2, len(start))))
     scatter_velocities(system, speeds.before, state)
     return unpaid
 
 
+@compiled
+def energies(M, u):
+    """½ uᵀ M u of each body, J (n,)."""
+    energy = np.zeros(len(u))
+    for i in range(len(u)):
+        for a in range(u.shape[1]):
+            for b in range(u.shape[1]):
+                energy[i] += 0.5 * u[i, a] * M[i, a, b] * u[i, b]
+    return energy
+
+
 @inner
-def pay(label, gain, M, u, room):
-    """Slow each island's bodies until they have lost the energy that lifting gave; returns what could not
-    be paid, J. room (2, n), zeros.
+def pay(label, gain, energy, u, room):
+    """Slow each island's bodies, which have these energies (n,), until they have lost what lifting gave;
+    returns what could not be paid, J. room (2, n), zeros.
     """
-    n, k = u.shape
     gained, has = room[0], room[1]
-    for i in range(n):
+    for i in range(len(u)):
         gained[label[i]] += gain[i]
-        for a in range(k):
-            for b in range(k):
-                has[label[i]] += 0.5 * u[i, a] * M[i, a, b] * u[i, b]
+        has[label[i]] += energy[i]
     unpaid = 0.0
-    for i in range(n):
+    for i in range(len(u)):
         if gained[i] > has[i]:
             unpaid += gained[i] - has[i]
-    for i in range(n):
+    for i in range(len(u)):
         island = label[i]
         if gained[island] > 0 and has[island] > 0:
             share = np.sqrt(max(0.0, 1 - gained[island] / has[island]))
-            for a in range(k):
+            for a in range(u.shape[1]):
                 u[i, a] *= share
     return unpaid

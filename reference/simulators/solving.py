@@ -64,6 +64,8 @@ class StepSolver:
             )
             self.note(passes, error)
             return after
+        if not np.isfinite(free).all():
+            raise Unsolvable("diverged", f"velocities stopped being finite under {self.name} in")
         A = factors(rows, M, softness)
         problem, start, lam = PROBLEMS[self.friction](rows, A, free, λ)
         solution = SOLVERS[self.name](problem, start, *self.limits)

@@ -60,7 +60,7 @@ class VelocityLCP:
         radius = self.collider.solids.form.radius if self.collider else np.zeros(0)
         self.closed = CLOSED * float(radius[np.isfinite(radius)].min(initial=self.held.size))
         self.key, self.force = np.zeros(0, dtype=np.int64), np.zeros((0, self.d))  # of the contacts before
-        self.now, self.filled, self.still, self.lifted = 0.0, 0.0, False, np.zeros(1)
+        self.now, self.filled, self.still, self.lifted = 0.0, 0.0, False, np.zeros(2)
         self.touched, self.worst, self.open = Touched(self.d), self.solver.worst, 0.0
         self.limits = Limits(*self.solver.limits, self.closed, len(bodies.mass), self.warm)
         compiled_whole = self.solver.name == "cone_newton"
@@ -106,7 +106,8 @@ class VelocityLCP:
             return done
         kept = self.keep()
         try:
-            self.step(t, h)
+            with np.errstate(all="ignore"):  # what isn't finite ends the run, and is told there
+                self.step(t, h)
         except Unsolvable as why:
             self.ended = why.status, str(why)
         if not self.ended and all_finite(self.state.y):
@@ -222,7 +223,7 @@ class VelocityLCP:
         if len(self.held):
             self.fill(0.0, 1.0)
             lift(self, self.within(0.0), 1.0)
-            self.lifted[0] = 0.0
+            self.lifted[:] = 0.0
             if self.open:
                 raise ValueError(
                     f"joints must be able to hold at the same time, but one stays open by {self.open:.3g} "
@@ -243,9 +244,10 @@ class VelocityLCP:
 
     def note(self):
         """What must be said of the contacts, or ""."""
-        gain = self.lifted[0]
+        gain, depth = self.lifted
         lifted = f"lifting overlaps apart has added {gain:.3g} J" if gain > 0 else ""
-        return "; ".join(part for part in (self.solver.told(), lifted) if part)
+        stays = f"an overlap of up to {depth:.3g} m could not be lifted apart" if depth > 0 else ""
+        return "; ".join(part for part in (self.solver.told(), lifted, stays) if part)
 
     def joint_forces(self, times, records):
         """ValueError: impulses of joints are not kept here."""
