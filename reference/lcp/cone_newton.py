@@ -75,8 +75,8 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
 
     softness (B,): γ of each block's first row, which gives way: w = J u + c + γ λ. Returns (u, passes,
     error): how far they are from the law (``coulomb.breach``) and from M (u − free) = Jᵀ λ, m/s, over the
-    worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with. One contact by
-    itself is solved exactly, without a pass.
+    worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with. Where sweeps
+    over one or two contacts get there, they count as one pass.
     """
     (n, k), blocks = free.shape, len(rows.μ)
     room = Room(
@@ -212,8 +212,8 @@ def velocities(rows, u):
 
 @compiled_apart
 def block_sizes(rows, moves, free, size):
-    """A's largest diagonal entry of each block; returns the worst |w| of the free velocities, and the worst sum
-    of its terms' sizes, m/s.
+    """A's largest diagonal entry of each block; returns the worst |w| of the free velocities, and the largest
+    sum of its terms' sizes, m/s.
     """
     scale, worst = 0.0, 0.0
     for q in range(len(size)):

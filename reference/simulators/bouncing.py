@@ -15,7 +15,7 @@ Slides S9, S10; lectures/05_contact.md.
 import numpy as np
 
 from ..compiled import compiled, compiled_apart, inner
-from ..contacts import keys, part, parting_speed, put_row, spread
+from ..contacts import keys, label_islands, part, parting_speed, put_row, spread
 from ..lcp.augmented import dot
 from ..lcp.contact_sweeps import divide_by_mass
 from .flight import scatter_velocities
@@ -90,9 +90,11 @@ def strike(sim, contacts, h):
     h: the whole step, s.
     """
     closed = part(contacts, contacts.gap <= sim.closed)
-    _, _, e, strikes, _ = look_ahead(closed, sim.speeds, sim.filled, h, h, sim.closed)
+    w, _, e, strikes, _ = look_ahead(closed, sim.speeds, sim.filled, h, h, sim.closed)
     if not strikes:
         return False
+    struck = reached(closed, w, sim.held.rows.bodies, len(sim.before))
+    closed, e = part(closed, struck), e[struck]
 
     def solve(rows, free):
         λ = np.zeros(len(rows.c))
@@ -104,6 +106,13 @@ def strike(sim, contacts, h):
     scatter_velocities(sim.system, after, sim.state)
     sim.touched.add(closed, spread(rows, λ, len(e), sim.d))
     return True
+
+
+def reached(contacts, w, joints, n):
+    """(m,): which contacts an impact can reach: in their island, with these joints (r, 2), one approaches."""
+    label = label_islands(np.concatenate([contacts.slot, joints]), n)
+    island = label[contacts.slot.max(axis=1)]
+    return np.isin(island, island[w < 0])
 
 
 def hop(sim, contacts, h, left):

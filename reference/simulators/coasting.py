@@ -21,8 +21,8 @@ def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, c
     """Up to so many steps of h s from the time t; pushed: keys (c,) and forces (c, d) of the contacts before.
 
     Returns how many are done; whether the last left the state as it was; ``pushed`` now; and the impulses of
-    the last step. It ends before a step that is none of the ordinary, or whose state would not be finite. The
-    energy that lifting added, J, is added to lifted[0]; lifted[1] is the deepest that stayed in each other, m.
+    the last step. It ends before a step that is none of the ordinary, or whose state would not be finite.
+    lifted (2,): the energy that lifting added, J, is added to the first; the second is the deepest that stays.
     """
     solids, grid, pairs, spare, raw = collider
     before, start, impulse = state.y.copy(), state.x.copy(), pushed[1]

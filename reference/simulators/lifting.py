@@ -1,9 +1,9 @@
 """What went into each other is lifted apart, and joints are closed, by the smallest move that does it (S13).
 
 Smallest in the measure of the kinetic energy: δ with ½ |δ|²_M least and gap + J δ ≥ 0 for all contacts
-near, again and again until none is deep. Lifting adds potential energy, and turning a body in space that spins
-may add energy of motion; both are taken from the speed of the same bodies, as far as they have any. What is
-left is counted: it is the energy that lifting out an overlap adds.
+near, again and again until none is deep. Lifting adds potential energy, and turning a body that spins in
+space may add energy of motion; both are taken from the speed of the same bodies, as far as they have any.
+What is left is counted: it is the energy that lifting out an overlap adds.
 
 Slides S12, S13; lectures/05_contact.md.
 """
