@@ -75,22 +75,36 @@ def gather(rows, full, others):
 
 
 @inner
-def parting_speed(contacts, q, u):
-    """w_n = J u of contact q for the velocities u (n, k): how fast its two bodies part, m/s."""
-    w = 0.0
+def relative_velocity(contacts, q, u):
+    """How fast j moves, seen from i, at contact q: m/s, three numbers; the third is 0 in the plane. u (n, k)."""
+    x, y, z = 0.0, 0.0, 0.0
     for side in range(2):
         i = contacts.slot[q, side]
         if i < 0:
             continue
-        n, r = contacts.frame[q, 0], contacts.arm[q, side]
-        if len(n) == 2:
-            speed = n[0] * u[i, 0] + n[1] * u[i, 1] + (r[0] * n[1] - r[1] * n[0]) * u[i, 2]
+        r, sign = contacts.arm[q, side], 2.0 * side - 1.0
+        if len(r) == 2:
+            x += sign * (u[i, 0] - u[i, 2] * r[1])
+            y += sign * (u[i, 1] + u[i, 2] * r[0])
         else:
-            moment = cross((r[0], r[1], r[2]), (n[0], n[1], n[2]))
-            speed = n[0] * u[i, 0] + n[1] * u[i, 1] + n[2] * u[i, 2]
-            speed += moment[0] * u[i, 3] + moment[1] * u[i, 4] + moment[2] * u[i, 5]
-        w += speed if side == 1 else -speed
-    return w
+            turning = cross((u[i, 3], u[i, 4], u[i, 5]), (r[0], r[1], r[2]))
+            x += sign * (u[i, 0] + turning[0])
+            y += sign * (u[i, 1] + turning[1])
+            z += sign * (u[i, 2] + turning[2])
+    return x, y, z
+
+
+@inner
+def along(e, velocity):
+    """e · velocity, for a direction e (d,) and three numbers."""
+    total = e[0] * velocity[0] + e[1] * velocity[1]
+    return total + e[2] * velocity[2] if len(e) == 3 else total
+
+
+@inner
+def parting_speed(contacts, q, u):
+    """w_n = J u of contact q for the velocities u (n, k): how fast its two bodies part, m/s."""
+    return along(contacts.frame[q, 0], relative_velocity(contacts, q, u))
 
 
 @compiled

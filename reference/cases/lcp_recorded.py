@@ -17,6 +17,7 @@ from ..layout import Bodies
 from ..lcp import LCP, lemke, min_map_newton
 from ..shapes import Plane
 from ..simulators.flight import flight
+from ..simulators.middle import make_half_way
 from ..simulators.model import model
 from ..simulators.settings import Settings
 from ..simulators.velocity_lcp import VelocityLCP
@@ -59,7 +60,8 @@ class Recorder(VelocityLCP):
 
     def __init__(self, scene, bodies, settings):
         super().__init__(scene, bodies, settings)
-        self.coast, self.flight = None, bind(flight, self.solve_in_flight)  # so that each problem is seen
+        self.coast = None  # so that each problem is seen
+        self.flight = bind(flight, make_half_way(self.collider), self.solve_in_flight)
 
     def solve(self, rows, free, λ):
         """As that of ``VelocityLCP``."""

@@ -42,9 +42,9 @@ def _choose_two(n):
 class Collider:
     """What ``find_contacts`` works with; made by ``make_collider``.
 
-    solids: ``Solids``; contacts: ``ContactArrays``, whose first ``count`` rows count; detect: the compiled
+    solids: ``Solids``; contacts: ``ContactArrays``, whose first ``count`` rows count; spare: the same; detect: the compiled
     kernel, called as detect(*arrays, contacts, state, margin, h) (see ``find.detect``); arrays: the tuple
-    (solids, grid, pairs, spare, raw). ``make_room`` replaces ``contacts`` and ``arrays`` by larger ones.
+    (solids, grid, pairs, spare, raw). ``make_room`` replaces ``contacts``, ``spare`` and ``arrays`` by larger ones.
     """
 
     def __init__(self, bodies, scene):
@@ -53,7 +53,7 @@ class Collider:
         s = len(self.solids.kind)
         self.detect = detector(self.dimension)
         self._grid, self._raw = make_grid(s, self.dimension), make_raw(self.dimension)
-        self.arrays, self.contacts = (), None
+        self.arrays, self.contacts, self.spare = (), None, None
         self.make_room(_ROOM * s, _ROOM * s)
 
     @property
@@ -70,9 +70,8 @@ class Collider:
             *(np.zeros((pairs, 2), dtype=int) for _ in range(2)),
             self._raw,
         )
-        self.contacts = make_contacts(
-            _doubled(len(self.contacts.gap) if self.contacts else 1, contacts), self.dimension
-        )
+        size = _doubled(len(self.contacts.gap) if self.contacts else 1, contacts)
+        self.contacts, self.spare = (make_contacts(size, self.dimension) for _ in range(2))
 
 
 def _doubled(size, needed):

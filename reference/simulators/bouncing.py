@@ -18,7 +18,7 @@ from ..compiled import compiled, compiled_apart, inner
 from ..contacts import keys, label_islands, part, parting_speed, put_row, spread
 from ..lcp.augmented import dot
 from ..lcp.contact_sweeps import divide_by_mass
-from .flight import scatter_velocities
+from .moving import scatter_velocities
 
 MOST_IMPACTS = 100  # in one step; after them nothing bounces any more until the step's end
 SHORT = 1e-3  # of a step

@@ -8,24 +8,25 @@ Slides S9, S12; lectures/05_contact.md.
 
 import numpy as np
 
-from ..compiled import compiled, inner, lean
+from ..compiled import compiled, inner
 from ..integrators import copy
 from .bouncing import look_ahead
 from .lifting import DEEP, MOST_LIFTS, deepest, energies, slow_down, told_depth
+from .middle import reach
 from .smooth import all_finite
 
 
 @compiled
-def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, collider, contacts, held,
-          pushed, t, h, steps, limits, worst, lifted, timeless):  # fmt: skip
+def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, near, contacts, held, pushed,
+          t, h, steps, limits, worst, lifted, timeless):  # fmt: skip
     """Up to so many steps of h s from the time t; pushed: keys (c,) and forces (c, d) of the contacts before.
 
-    Returns how many are done; whether the last left the state as it was; ``pushed`` now; and the impulses of
-    the last step. It ends before a step that is none of the ordinary, or whose state would not be finite.
+    Returns how many are done; whether the last left the state as it was; ``pushed`` now; and the contacts,
+    half way, and impulses of the last step. It ends before a step that is none of the ordinary, or whose state would not be finite.
     lifted (2,): the energy that lifting added, J, is added to the first; the second is the deepest that stays.
     """
-    solids, grid, pairs, spare, raw = collider
-    before, start, impulse = state.y.copy(), state.x.copy(), pushed[1]
+    solids, grid, pairs, spare, raw = near.collider
+    before, start, impulse, there = state.y.copy(), state.x.copy(), pushed[1], contacts
     label, had = numbers(len(start)), np.zeros(len(start))
     for done in range(steps):
         copy(state.y, before)
@@ -48,21 +49,21 @@ def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, c
             fill_free(system, t + done * h, h, state, speeds)
         if not (room and quiet(contacts, speeds, h, limits)):
             copy(before, state.y)
-            return done, False, pushed, impulse
-        key, made, _ = flight(
-            system, state, work, speeds, contacts, held, pushed[0], pushed[1], h, 1.0, limits, worst
-        )
+            return done, False, pushed, there, impulse
+        key, half, made, _ = flight(
+            system, state, work, speeds, near, contacts, held, pushed[0], pushed[1], h, 1.0, limits, worst
+        )  # fmt: skip
         if not all_finite(state.y):
             copy(before, state.y)
-            return done, False, pushed, impulse
+            return done, False, pushed, there, impulse
         lifted[0] += unpaid
         lifted[1] = max(lifted[1], stays)
-        impulse = made
+        there, impulse = half, made
         if limits.warm:
             pushed = key, over(impulse, h)
         if timeless and same(before, state.y):
-            return done + 1, True, pushed, impulse
-    return steps, False, pushed, impulse
+            return done + 1, True, pushed, there, impulse
+    return steps, False, pushed, there, impulse
 
 
 @inner
@@ -77,16 +78,6 @@ def copy_positions(x, to):
 def numbers(n):
     """0, 1, … n − 1."""
     return np.arange(n)
-
-
-@lean
-def reach(speeds, h, closed):
-    """How far apart contacts are that matter, m: as forces could bring bodies together in the time h."""
-    hastening = 0.0
-    for i in range(len(speeds.free)):
-        for a in range(speeds.free.shape[1]):
-            hastening = max(hastening, abs(speeds.free[i, a] - speeds.before[i, a]))
-    return 2 * h * hastening + 100 * closed
 
 
 @compiled(door=False)

@@ -25,8 +25,8 @@ from ..correction import (
     soft_velocity,
 )
 from .bouncing import motion
-from .flight import move
 from .impacts import rates
+from .moving import move
 from .solving import moves_and_diagonal
 from .velocity_lcp import VelocityLCP
 

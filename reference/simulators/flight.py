@@ -14,12 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..bodies import planar, times
-from ..compiled import compiled, compiled_apart, inner, lean
+from ..compiled import compiled, compiled_apart, inner
 from ..contacts import contact_rows, gather, keys, label_islands, look_up, spread
-from ..integrators.splitting import drift_by_midpoint, finish_free_rotation
-from ..rotation import quaternion, rotate, rotate_back, store, vector
 from .held import join
+from .middle import add_bias
+from .moving import move
 from .resting import leave_out_rest, put_back
 
 REST = 100  # times the solver's tolerance: so slow is at rest, where contacts hold it
@@ -56,33 +55,38 @@ class Turning(NamedTuple):
 
 
 @compiled_apart
-def flight(solve, system, state, work, speeds, contacts, held, known, pushed, h, share, limits, worst):
+def flight(half_way, solve, system, state, work, speeds, near, contacts, held, known, pushed, h, share,
+           limits, worst):  # fmt: skip
     """Move on by h s among these contacts and the joints' rows ``held``, without rebound.
 
-    solve(rows, M, free, λ, limits, worst) → u⁺, λ in place. known (c,), pushed (c, d): keys and forces of
-    the contacts before, N. share: h over the time for which ``speeds`` was filled. Returns the keys (m,), the
-    impulses (m, d) in the contacts' frames, and λ of all rows.
+    half_way: see ``middle``; near: what it works with. solve(rows, M, free, λ, limits, worst) → u⁺, λ in
+    place. known (c,), pushed (c, d): keys and forces of the contacts before, N. share: h over the time for
+    which ``speeds`` was filled. Returns the keys (m,), the contacts as they are half way, the impulses (m, d)
+    in their frames, and λ of all rows.
     """
-    rows, gap, free, key, λ = prepare(contacts, held, speeds, known, pushed, h, share, limits)
-    moving = leave_out_rest(rows, speeds.M, speeds.before, free, λ, limits.tolerance)
+    M, before, free, half = half_way(system, state, work, speeds, near, contacts, h, share, limits)
+    rows, gap, key, λ = prepare(contacts, half, held, speeds, before, free, known, pushed, h, limits)
+    moving = leave_out_rest(rows, M, before, free, λ, limits.tolerance)
     found = solve(moving.rows, moving.M, moving.free, moving.λ, limits, worst)
     after = put_back(moving, found, λ, free)
-    finish(system, state, work, speeds.M, speeds.before, rows, gap, free, after, λ, h, limits)
-    return key, spread(rows, λ, len(key), state.x.shape[1]), λ
+    finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits)
+    return key, half, spread(rows, λ, len(key), state.x.shape[1]), λ
 
 
 @compiled_apart
-def prepare(contacts, held, speeds, known, pushed, h, share, limits):
-    """The problem of a flight: its rows, their gaps, the free velocities (n, k), the contacts' keys, and the
-    λ that the forces before would make in h.
+def prepare(contacts, half, held, speeds, before, free, known, pushed, h, limits):
+    """The problem of a flight: its rows, half way; their gaps; the contacts' keys; and the λ that the forces
+    before would make in h.
     """
     closing = closing_speeds(contacts, h, limits.closed)
-    rows = join(contact_rows(contacts, closing, speeds.before.shape[1]), held)
+    rows = join(contact_rows(half, closing, before.shape[1]), held)
+    gap = gaps(contacts, held)
+    add_bias(rows, contacts, half, speeds, before, free, gap, h, limits.closed)
     key = keys(contacts, limits.bodies)
     λ = gather(rows, look_up(known, pushed, key), held.force)
     for r in range(len(λ)):
         λ[r] *= h
-    return rows, gaps(contacts, held), part_way(speeds.before, speeds.free, share), key, λ
+    return rows, gap, key, λ
 
 
 @compiled_apart
@@ -92,7 +96,7 @@ def finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits
     let_rest(label, rows, λ, before, free, after, REST * limits.tolerance, room[:3])
     used = np.empty_like(after)
     choose_velocities(rows, label, gap, M, before, free, after, λ, h, limits.closed, used, room[3:])
-    move(system, used, after, h, state, work)
+    move(system, used, after, 0.5 * h, state, work)
 
 
 @compiled(door=False)
@@ -116,50 +120,10 @@ def closing_speeds(contacts, h, closed):
     return target
 
 
-@compiled(door=False)
-def part_way(before, free, share):
-    """The free velocities (n, k) after this share of the time for which they are given."""
-    between = np.empty_like(before)
-    for i in range(len(before)):
-        for a in range(before.shape[1]):
-            between[i, a] = before[i, a] + (free[i, a] - before[i, a]) * share
-    return between
-
-
-@lean
-def gather_velocities(state, u):
-    """u (n, k): v and ω of each body side by side; 0 for the turning of points."""
-    d = state.x.shape[1]
-    for i in range(len(u)):
-        for a in range(d):
-            u[i, a] = state.v[i, a]
-        for a in range(d, u.shape[1]):
-            u[i, a] = 0.0
-        if i < len(state.ω):
-            for a in range(state.ω.shape[1]):
-                u[i, d + a] = state.ω[i, a]
-
-
-@lean
-def scatter_velocities(system, u, state):
-    """v, ω and L from u (n, k)."""
-    d = state.x.shape[1]
-    for i in range(len(u)):
-        for a in range(d):
-            state.v[i, a] = u[i, a]
-        if i < len(state.ω):
-            for a in range(state.ω.shape[1]):
-                state.ω[i, a] = u[i, d + a]
-            if not planar(state):
-                q = quaternion(state.q, i)
-                ω = vector(state.ω, i)
-                store(state.L, i, rotate(q, times(vector(system.inertia, i), rotate_back(q, ω))))
-
-
 @inner
 def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, used, room):
-    """Into used (n, k): with which velocity u + θ (u⁺ − u) each body moves. gap (m,), m, of each contact;
-    slack, m: a gap that counts as none; room (4, n), zeros.
+    """Into used (n, k): with which velocity each body moves in the second half, so that it is u + θ (u⁺ − u)
+    in the whole. gap (m,), m, of each contact; slack, m: a gap that counts as none; room (4, n), zeros.
     """
     n, k = before.shape
     work, size, lands, force = room[0], room[1], room[2], room[3]
@@ -191,7 +155,7 @@ def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, us
         elif work[island] > NO_WORK * size[island]:
             θ = 0.5 + work[island] / force[island] if force[island] > 2 * work[island] else 1.0
         for a in range(k):
-            used[i, a] = before[i, a] + θ * (after[i, a] - before[i, a])
+            used[i, a] = after[i, a] + (2 * θ - 1) * (after[i, a] - before[i, a])
 
 
 @inner
@@ -224,59 +188,3 @@ def let_rest(label, rows, λ, before, free, after, tolerance, room):
     return resting
 
 
-@lean
-def move(system, used, after, h, state, work):
-    """Positions and attitudes with the velocities ``used``; then the velocities are those ``after``.
-
-    In space a body turns as a free one does, with the momentum that goes with ``used``; its momentum after
-    is kept, so that ω follows the axes, but for its length, by which the energy is kept.
-    """
-    scatter_velocities(system, after, state)
-    for i in range(len(state.L)):
-        for a in range(3):
-            work.L[i, a] = state.L[i, a]
-    scatter_velocities(system, used, state)
-    drift_by_midpoint(system, h, state, work)
-    scatter_velocities_kept(system, used, after, work.L, state)
-
-
-@inner
-def scatter_velocities_kept(system, used, after, L, state):
-    """v (and ω in the plane) from ``after``; in space ω from the momentum L, at the new attitude."""
-    d = state.x.shape[1]
-    for i in range(len(after)):
-        for a in range(d):
-            state.v[i, a] = after[i, a]
-        if i >= len(state.ω):
-            continue
-        if planar(state):
-            state.ω[i, 0] = after[i, d]
-        else:
-            for a in range(3):
-                state.L[i, a] = L[i, a]
-            finish_free_rotation(state, i, quaternion(state.q, i), vector(system.inertia, i))
-            if differ(used[i], after[i], d):
-                keep_energy(state.L[i], state.ω[i], after[i], d)
-
-
-@inner
-def differ(u, other, d):
-    """Whether a body's angular velocities are not the same in both; d: where they begin."""
-    return u[d] != other[d] or u[d + 1] != other[d + 1] or u[d + 2] != other[d + 2]
-
-
-@inner
-def keep_energy(L, ω, after, d):
-    """Make L and ω as much shorter or longer as leaves ½ L·ω what it was before the body turned.
-
-    A free body that turns by its own ω keeps its energy. Turned by another, the mean, it would win or lose
-    some, of order h² in a step (measured: up to 4e-4 of a box that tumbles over its corner at h = 1/30 s).
-    """
-    before, now = 0.0, 0.0
-    for a in range(3):
-        before += L[a] * after[d + a]
-        now += L[a] * ω[a]
-    share = np.sqrt(before / now) if before > 0 and now > 0 else 1.0
-    for a in range(3):
-        L[a] *= share
-        ω[a] *= share

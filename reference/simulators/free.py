@@ -8,7 +8,8 @@ import numpy as np
 from ..bodies import solve_mass
 from ..compiled import lean_apart
 from ..contacts import fill_masses
-from .flight import Speeds, gather_velocities
+from .flight import Speeds
+from .moving import gather_velocities
 
 
 def make_speeds(n, d, k, ω):

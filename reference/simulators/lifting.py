@@ -14,7 +14,7 @@ from ..collision import ContactArrays
 from ..compiled import compiled, compiled_apart, inner
 from ..contacts import contact_rows, label_islands
 from ..correction import displace
-from .flight import scatter_velocities
+from .moving import scatter_velocities
 from .held import join
 
 DEEP = 10  # times the gap that counts as none

@@ -18,12 +18,13 @@ from ..contacts import contact_rows, gather, keys, look_up, part, spread
 from ..forces import external_force, with_user_forces
 from ..trajectory import BodyState
 from .bouncing import MOST_IMPACTS, hop, strike
-from .coasting import coast, reach
+from .coasting import coast
 from .flight import Limits, Turning, flight
 from .free import fill_free, make_speeds
 from .held import Held, join
 from .impacts import IMPACTS
 from .lifting import lift, raise_apart
+from .middle import Near, make_half_way, reach
 from .smooth import all_finite
 from .solving import StepSolver, Unsolvable, newton_in_cones
 from .touched import Touched
@@ -65,7 +66,8 @@ class VelocityLCP:
         self.limits = Limits(*self.solver.limits, self.closed, len(bodies.mass), self.warm)
         compiled_whole = self.solver.name == "cone_newton"
         solve = newton_in_cones if compiled_whole else self.solve_in_flight
-        self.flight, self.raise_apart = bind(flight, solve), bind(raise_apart, solve)
+        self.raise_apart = bind(raise_apart, solve)
+        self.flight = bind(flight, make_half_way(self.collider), solve)
         self.coast = None  # what takes ordinary steps by itself
         simple = not len(self.held) and not scene.user_forces
         if self.coasts and compiled_whole and self.collider and simple:
@@ -118,14 +120,14 @@ class VelocityLCP:
     def coast_on(self, t, h, steps):
         """Up to so many ordinary steps, in which nothing strikes or overlaps; returns how many are done."""
         contacts = self.collider.contacts
-        done, self.still, pushed, impulse = self.coast(
-            self.system, self.state, self.work, self.speeds, self.collider.arrays, contacts,
+        done, self.still, pushed, half, impulse = self.coast(
+            self.system, self.state, self.work, self.speeds, self.near(), contacts,
             self.held.rows_with(*self.held.in_flight(h)), (self.key, self.force), t, h, steps, self.limits,
             self.worst, self.lifted, self.timeless,
         )  # fmt: skip
         self.key, self.force = pushed
         if done and self.recording:
-            self.touched.add(part(contacts, slice(0, len(impulse))), impulse)
+            self.touched.add(part(half, slice(0, len(impulse))), impulse)
         return done
 
     def step(self, t, h):
@@ -161,6 +163,12 @@ class VelocityLCP:
         m = find_contacts(self.collider, self.state, margin, h)
         return part(self.collider.contacts, slice(0, m))
 
+    def near(self):
+        """What contacts half way are looked for with."""
+        if not self.collider:
+            return Near((), make_contacts(0, self.d))
+        return Near(self.collider.arrays, self.collider.spare)
+
     def rows(self, contacts, target, held):
         """The contacts' rows, with w_n ≥ −target, and those of the joints with (c, lower, upper) = held."""
         return join(contact_rows(contacts, target, self.k), self.held.rows_with(*held))
@@ -176,11 +184,11 @@ class VelocityLCP:
     def fly(self, contacts, h):
         """Move on by h, without rebound. Returns h."""
         held = self.held.rows_with(*self.held.in_flight(h))
-        key, impulse, λ = self.flight(
-            self.system, self.state, self.work, self.speeds, contacts, held, self.key, self.force, h,
-            h / self.filled, self.limits, self.worst,
+        key, half, impulse, λ = self.flight(
+            self.system, self.state, self.work, self.speeds, self.near(), contacts, held, self.key,
+            self.force, h, h / self.filled, self.limits, self.worst,
         )  # fmt: skip
-        self.note_impulses(contacts, key, impulse, λ, h)
+        self.note_impulses(half, key, impulse, λ, h)
         return h
 
     def pushed_before(self, contacts, rows):

@@ -1,0 +1,163 @@
+"""The middle of a step: where the contacts are when their impulses act.
+
+A step flies for half its time with the velocities u, there u changes to u⁺, and it flies on with these. So
+what turns on a corner, or rolls over another body, is pushed along the normal that it has half way, and the
+error of a step is of order h³, not h².
+
+Such a contact needs more than w⁺ = 0, half way. While a body turns about its corner, the corner's velocity
+as the rows tell it changes by J̇ u h from the step's start to its end. Half of that is seen on the way to the
+middle, w − w_start. The other half is to come, and w⁺ must leave room for it:
+
+    w⁺ + (w − w_start) ≥ 0        so that w is 0, not half way, but at the end
+
+(At the level of accelerations, J u̇ + J̇ u ≥ 0: S5.) Where something lands the rows stay as they are.
+
+Slides S5, S9, S12; lectures/05_contact.md. Source: Jean, CMAME 177 (1999) 235 (contact at the middle of the
+step).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..collision import ContactArrays
+from ..compiled import bind, compiled, compiled_apart, inner, lean
+from ..contacts import along, fill_masses, keys, label_islands, parting_speed, relative_velocity
+from ..lcp.augmented import dot
+from ..lcp.contact_sweeps import divide_by_mass
+from .moving import gather_velocities, move
+
+SAME = 0.9  # cosine of the angle between two normals of one contact, at least
+LEFT = 0.25  # of the bias: by so much its error may let a contact close
+
+
+class Near(NamedTuple):
+    """What the contacts half way are looked for with."""
+
+    collider: tuple  # the arrays that ``collision.detect`` takes
+    room: ContactArrays
+
+
+def make_half_way(collider):
+    """``half_way`` with this Collider's search; None: nothing can touch."""
+    return bind(half_way, bind(search, collider.detect) if collider else no_search)
+
+
+@compiled_apart
+def half_way(search, system, state, work, speeds, near, contacts, h, share, limits):
+    """Fly for half of h with the velocities that there are. Returns, half way, M (n, k, k), u (n, k), what u
+    would be after the step without contact, and these contacts.
+
+    search(near, state, margin, h) finds the contacts, and returns whether there was room for all.
+    """
+    u = speeds.before
+    move(system, u, u, 0.5 * h, state, work)
+    M, before, free = speeds.M.copy(), np.empty_like(u), np.empty_like(u)
+    fill_masses(system, state, M)
+    gather_velocities(state, before)
+    fill_half_way(speeds, M, before, share, free, np.zeros((2, u.shape[1])))
+    if not moves(contacts, before) or not search(near, state, reach(speeds, h, limits.closed), h):
+        return M, before, free, contacts
+    return M, before, free, matched(contacts, near.room, limits.bodies)
+
+
+@inner
+def search(detect, near, state, margin, h):
+    """Find the contacts into near.room; returns whether there was room for all."""
+    solids, grid, pairs, spare, raw = near.collider
+    found = detect(solids, grid, pairs, spare, raw, near.room, state, margin, h)
+    return found[0] <= len(pairs) and found[1] <= len(near.room.gap)
+
+
+@inner
+def no_search(near, state, margin, h):
+    """Where nothing can touch."""
+    return False
+
+
+@inner
+def fill_half_way(speeds, M, before, share, free, room):
+    """Into free (n, k): before + M⁻¹ f, with the impulses f that the forces had at the start. room (2, k)."""
+    f, change = room[0], room[1]
+    for i in range(len(free)):
+        for a in range(len(f)):
+            f[a] = 0.0
+            for b in range(len(f)):
+                f[a] += speeds.M[i, a, b] * (speeds.free[i, b] - speeds.before[i, b]) * share
+        divide_by_mass(M[i], f, change)
+        for a in range(len(f)):
+            free[i, a] = before[i, a] + change[a]
+
+
+@lean
+def reach(speeds, h, closed):
+    """How far apart contacts are that matter, m: as forces could bring bodies together in the time h."""
+    hastening = 0.0
+    for i in range(len(speeds.free)):
+        for a in range(speeds.free.shape[1]):
+            hastening = max(hastening, abs(speeds.free[i, a] - speeds.before[i, a]))
+    return 2 * h * hastening + 100 * closed
+
+
+@inner
+def moves(contacts, u):
+    """Whether anything moves that has a contact."""
+    for q in range(contacts.count[0]):
+        for side in range(2):
+            i = contacts.slot[q, side]
+            if i >= 0:
+                for a in range(u.shape[1]):
+                    if u[i, a] != 0:
+                        return True
+    return False
+
+
+@compiled(door=False)
+def matched(contacts, now, bodies):
+    """The same contacts (m,) with the points, frames and arms that they have now, where they are found."""
+    m = contacts.count[0]
+    half = ContactArrays(
+        contacts.count.copy(), contacts.bodies[:m].copy(), contacts.slot[:m].copy(), contacts.id[:m].copy(),
+        contacts.point[:m].copy(), contacts.frame[:m].copy(), contacts.gap[:m].copy(),
+        contacts.arm[:m].copy(), contacts.friction[:m].copy(), contacts.restitution[:m].copy(),
+    )  # fmt: skip
+    known, key, p = keys(now, bodies), keys(contacts, bodies), 0
+    for q in range(m):
+        while p < len(known) and known[p] < key[q]:
+            p += 1
+        found = p < len(known) and known[p] == key[q]
+        if found and dot(contacts.frame[q, 0], now.frame[p, 0]) > SAME:
+            half.point[q], half.frame[q], half.arm[q] = now.point[p], now.frame[p], now.arm[p]
+    return half
+
+
+@compiled_apart
+def add_bias(rows, contacts, half, speeds, before, free, gap, h, closed):
+    """To c of the contacts' rows, what w has changed by until half way; to gap (m,), what its error may be.
+
+    An island in which something lands is left as it is.
+    """
+    label = label_islands(rows.bodies, len(before))
+    lands = np.zeros(len(before), np.bool_)
+    for q in range(contacts.count[0]):
+        if contacts.gap[q] > closed:
+            w = min(parting_speed(half, q, before), parting_speed(half, q, free))
+            if contacts.gap[q] + h * w < 0:
+                lands[label[owner(contacts, q)]] = True
+    for q in range(contacts.count[0]):
+        if contacts.gap[q] > closed or lands[label[owner(contacts, q)]]:
+            continue
+        first = rows.block[q]
+        bias = parting_speed(half, q, before) - parting_speed(contacts, q, speeds.before)
+        rows.c[first] += bias
+        gap[q] += LEFT * h * abs(bias)
+        now, then = relative_velocity(half, q, before), relative_velocity(contacts, q, speeds.before)
+        changed = now[0] - then[0], now[1] - then[1], now[2] - then[2]
+        for r in range(first + 1, rows.block[q + 1]):
+            rows.c[r] += along(half.frame[q, r - first], changed)
+
+
+@inner
+def owner(contacts, q):
+    """A moving body of contact q."""
+    return contacts.slot[q, 0] if contacts.slot[q, 0] >= 0 else contacts.slot[q, 1]
