@@ -76,7 +76,7 @@ def gather(rows, full, others):
 
 @inner
 def relative_velocity(contacts, q, u):
-    """How fast j moves, seen from i, at contact q: m/s, three numbers; the third is 0 in the plane. u (n, k)."""
+    """How fast j moves, seen from i, at contact q: three numbers, m/s; the third is 0 in the plane."""
     x, y, z = 0.0, 0.0, 0.0
     for side in range(2):
         i = contacts.slot[q, side]

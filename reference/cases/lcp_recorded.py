@@ -16,8 +16,7 @@ from ..factored import Factored
 from ..layout import Bodies
 from ..lcp import LCP, lemke, min_map_newton
 from ..shapes import Plane
-from ..simulators.flight import flight
-from ..simulators.middle import make_half_way
+from ..simulators.flight import push
 from ..simulators.model import model
 from ..simulators.settings import Settings
 from ..simulators.velocity_lcp import VelocityLCP
@@ -60,8 +59,7 @@ class Recorder(VelocityLCP):
 
     def __init__(self, scene, bodies, settings):
         super().__init__(scene, bodies, settings)
-        self.coast = None  # so that each problem is seen
-        self.flight = bind(flight, make_half_way(self.collider), self.solve_in_flight)
+        self.coast, self.push = None, bind(push, self.solve_in_flight)  # so that each problem is seen
 
     def solve(self, rows, free, λ):
         """As that of ``VelocityLCP``."""

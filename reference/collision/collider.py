@@ -42,9 +42,9 @@ def _choose_two(n):
 class Collider:
     """What ``find_contacts`` works with; made by ``make_collider``.
 
-    solids: ``Solids``; contacts: ``ContactArrays``, whose first ``count`` rows count; spare: the same; detect: the compiled
-    kernel, called as detect(*arrays, contacts, state, margin, h) (see ``find.detect``); arrays: the tuple
-    (solids, grid, pairs, spare, raw). ``make_room`` replaces ``contacts``, ``spare`` and ``arrays`` by larger ones.
+    solids: ``Solids``; contacts: ``ContactArrays``, whose first ``count`` rows count; spare: as much room;
+    detect: the compiled kernel, called as detect(*arrays, contacts, state, margin, h) (see ``find.detect``);
+    arrays: the tuple (solids, grid, pairs, spare, raw). ``make_room`` replaces all these by larger ones.
     """
 
     def __init__(self, bodies, scene):

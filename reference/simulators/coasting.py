@@ -17,17 +17,18 @@ from .smooth import all_finite
 
 
 @compiled
-def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, near, contacts, held, pushed,
-          t, h, steps, limits, worst, lifted, timeless):  # fmt: skip
+def coast(fill_free, detect, half_way, push, raise_apart, system, state, work, speeds, middle, near, contacts,
+          held, pushed, t, h, steps, limits, worst, lifted, timeless):  # fmt: skip
     """Up to so many steps of h s from the time t; pushed: keys (c,) and forces (c, d) of the contacts before.
 
     Returns how many are done; whether the last left the state as it was; ``pushed`` now; and the contacts,
-    half way, and impulses of the last step. It ends before a step that is none of the ordinary, or whose state would not be finite.
-    lifted (2,): the energy that lifting added, J, is added to the first; the second is the deepest that stays.
+    half way, and the impulses of the last step. It ends before a step that is none of the ordinary, or whose
+    state would not be finite. lifted (2,): the energy that lifting added, J, is added to the first; the
+    second is the deepest that stays in each other.
     """
     solids, grid, pairs, spare, raw = near.collider
     before, start, impulse, there = state.y.copy(), state.x.copy(), pushed[1], contacts
-    label, had = numbers(len(start)), np.zeros(len(start))
+    label, had, way = numbers(len(start)), np.zeros(len(start)), np.zeros_like(speeds.before)
     for done in range(steps):
         copy(state.y, before)
         lifts, unpaid, stays = 0, 0.0, 0.0
@@ -41,18 +42,21 @@ def coast(fill_free, detect, flight, raise_apart, system, state, work, speeds, n
             if lifts == 0:
                 copy_positions(state.x, start)
                 label, had = numbers(len(start)), energies(speeds.M, speeds.before)
-            raise_apart(state, contacts, held, speeds, label, limits, worst)
+                way = np.zeros_like(speeds.before)
+            raise_apart(state, contacts, held, speeds, label, way, limits, worst)
             lifts += 1
         if lifts > 0:
             stays = told_depth(contacts, limits.closed)
-            unpaid = slow_down(system, state, start, had, label, speeds)
+            unpaid = slow_down(system, state, start, had, way, label, speeds)
             fill_free(system, t + done * h, h, state, speeds)
         if not (room and quiet(contacts, speeds, h, limits)):
             copy(before, state.y)
             return done, False, pushed, there, impulse
-        key, half, made, _ = flight(
-            system, state, work, speeds, near, contacts, held, pushed[0], pushed[1], h, 1.0, limits, worst
-        )  # fmt: skip
+        half = half_way(system, state, work, speeds, near, contacts, h, limits)
+        fill_free(system, t + (done + 0.5) * h, h, state, middle)
+        key, made, _ = push(
+            system, state, work, speeds, middle, contacts, half, held, pushed[0], pushed[1], h, limits, worst
+        )
         if not all_finite(state.y):
             copy(before, state.y)
             return done, False, pushed, there, impulse

@@ -55,33 +55,32 @@ class Turning(NamedTuple):
 
 
 @compiled_apart
-def flight(half_way, solve, system, state, work, speeds, near, contacts, held, known, pushed, h, share,
-           limits, worst):  # fmt: skip
-    """Move on by h s among these contacts and the joints' rows ``held``, without rebound.
+def push(solve, system, state, work, speeds, middle, contacts, half, held, known, pushed, h, limits, worst):
+    """From the middle of a flight of h s to its end: the impulses, and the second half of the way.
 
-    half_way: see ``middle``; near: what it works with. solve(rows, M, free, λ, limits, worst) → u⁺, λ in
-    place. known (c,), pushed (c, d): keys and forces of the contacts before, N. share: h over the time for
-    which ``speeds`` was filled. Returns the keys (m,), the contacts as they are half way, the impulses (m, d)
-    in their frames, and λ of all rows.
+    speeds, contacts: of the start; middle, half: of the middle, where ``state`` is (see ``middle``); held:
+    the joints' rows. solve(rows, M, free, λ, limits, worst) → u⁺, λ in place. known (c,), pushed (c, d): keys
+    and forces of the contacts before, N. Returns the keys (m,) and the impulses (m, d) in the frames of
+    ``half``, and λ of all rows.
     """
-    M, before, free, half = half_way(system, state, work, speeds, near, contacts, h, share, limits)
-    rows, gap, key, λ = prepare(contacts, half, held, speeds, before, free, known, pushed, h, limits)
+    M, before, free = middle.M, middle.before, middle.free
+    rows, gap, key, λ = prepare(speeds, middle, contacts, half, held, known, pushed, h, limits)
     moving = leave_out_rest(rows, M, before, free, λ, limits.tolerance)
     found = solve(moving.rows, moving.M, moving.free, moving.λ, limits, worst)
     after = put_back(moving, found, λ, free)
     finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits)
-    return key, half, spread(rows, λ, len(key), state.x.shape[1]), λ
+    return key, spread(rows, λ, len(key), state.x.shape[1]), λ
 
 
 @compiled_apart
-def prepare(contacts, half, held, speeds, before, free, known, pushed, h, limits):
-    """The problem of a flight: its rows, half way; their gaps; the contacts' keys; and the λ that the forces
-    before would make in h.
+def prepare(speeds, middle, contacts, half, held, known, pushed, h, limits):
+    """The problem of a flight: its rows; their gaps at the start; the contacts' keys; and the λ that the
+    forces before would make in h.
     """
     closing = closing_speeds(contacts, h, limits.closed)
-    rows = join(contact_rows(half, closing, before.shape[1]), held)
+    rows = join(contact_rows(half, closing, middle.before.shape[1]), held)
     gap = gaps(contacts, held)
-    add_bias(rows, contacts, half, speeds, before, free, gap, h, limits.closed)
+    add_bias(rows, contacts, half, speeds.before, middle, gap, h, limits.closed)
     key = keys(contacts, limits.bodies)
     λ = gather(rows, look_up(known, pushed, key), held.force)
     for r in range(len(λ)):
@@ -92,7 +91,7 @@ def prepare(contacts, half, held, speeds, before, free, known, pushed, h, limits
 @compiled_apart
 def finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits):
     """Rest, and the new positions and velocities, once u⁺ = ``after`` is known."""
-    label, room = label_islands(rows.bodies, len(after)), np.zeros((7, len(after)))
+    label, room = label_islands(rows.bodies, len(after)), np.zeros((8, len(after)))
     let_rest(label, rows, λ, before, free, after, REST * limits.tolerance, room[:3])
     used = np.empty_like(after)
     choose_velocities(rows, label, gap, M, before, free, after, λ, h, limits.closed, used, room[3:])
@@ -123,12 +122,17 @@ def closing_speeds(contacts, h, closed):
 @inner
 def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, used, room):
     """Into used (n, k): with which velocity each body moves in the second half, so that it is u + θ (u⁺ − u)
-    in the whole. gap (m,), m, of each contact; slack, m: a gap that counts as none; room (4, n), zeros.
+    in the whole. gap (m,), m, of each contact; slack, m: a gap that counts as none; room (5, n), zeros.
+
+    Where the energy would rise whatever θ is, λ isn't Coulomb's, but what a solver had when it stopped; there
+    u⁺ is made slower.
     """
     n, k = before.shape
-    work, size, lands, force = room[0], room[1], room[2], room[3]
+    work, size, lands, force, energy = room[0], room[1], room[2], room[3], room[4]
     for q in range(len(gap)):
         first = rows.block[q]
+        if rows.lower[first] < 0 and rows.lower[first] > -np.inf:
+            continue  # a motor's work is its own
         i, j = rows.bodies[first, 0], rows.bodies[first, 1]
         island = label[i if i >= 0 else j]
         for r in range(first, rows.block[q + 1]):
@@ -147,15 +151,19 @@ def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, us
         for a in range(k):
             for b in range(k):
                 force[label[i]] += (free[i, a] - before[i, a]) * M[i, a, b] * (after[i, b] - before[i, b])
+                energy[label[i]] += 0.5 * after[i, a] * M[i, a, b] * after[i, b]
     for i in range(n):
-        island = label[i]
-        θ = 0.5
-        if lands[island] > 0:
-            θ = 1.0
-        elif work[island] > NO_WORK * size[island]:
-            θ = 0.5 + work[island] / force[island] if force[island] > 2 * work[island] else 1.0
+        island, θ, share = label[i], 0.5, 1.0
+        gains = work[island] > NO_WORK * size[island]
+        if lands[island] > 0 or (gains and not 2 * work[island] < force[island]):
+            θ, excess = 1.0, work[island] - 0.5 * force[island]
+            if excess > NO_WORK * (size[island] + energy[island]):
+                share = np.sqrt(max(0.0, 1 - excess / energy[island]))
+        elif gains:
+            θ += work[island] / force[island]
         for a in range(k):
             used[i, a] = after[i, a] + (2 * θ - 1) * (after[i, a] - before[i, a])
+            after[i, a] *= share
 
 
 @inner

@@ -66,6 +66,25 @@ class Held:
         c = np.where(self.motor, -self.rows.speed, np.where(self.limit, np.maximum(self.φ, 0.0) / h, 0.0))
         return c, h * self.lower, h * self.upper
 
+    def from_start(self, h, u):
+        """What ``half_way`` needs to know of the start of a flight of h s; u (n, k): the velocities there."""
+        return self.in_flight(h), self.gap(), self.rates(u)
+
+    def half_way(self, start, state, u):
+        """``HeldRows`` of the middle of a flight, where state and u are. What w has changed by until there it
+        will change by once more: so w is asked for at the end (see ``middle``).
+        """
+        (c, lower, upper), gap, w = start
+        if len(self):
+            self.fill(state)
+            c = c + np.where(self.limit & (gap > 0), 0.0, self.rates(u) - w)
+        return HeldRows(self.rows.bodies, self.J, c, lower, upper, gap, self.force)
+
+    def rates(self, u):
+        """J u of the rows (m,); u (n, k)."""
+        moving = self.rows.bodies >= 0
+        return np.einsum("msk,msk->m", self.J, np.where(moving[..., None], u[self.rows.bodies], 0.0))
+
     def at_impact(self, slack):
         """The same in no time: motors do nothing, and limits only where they are reached, to slack."""
         idle = self.motor | (self.limit & (self.φ > slack))

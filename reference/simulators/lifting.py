@@ -2,8 +2,9 @@
 
 Smallest in the measure of the kinetic energy: δ with ½ |δ|²_M least and gap + J δ ≥ 0 for all contacts
 near, again and again until none is deep. Lifting adds potential energy, and turning a body that spins in
-space may add energy of motion; both are taken from the speed of the same bodies, as far as they have any.
-What is left is counted: it is the energy that lifting out an overlap adds.
+space may add energy of motion; both are taken from the speed of the same bodies: first from that along the
+move, which leaves momentum alone as contact does, then from all speeds alike, as far as there are any. What
+is left is counted: it is the energy that lifting out an overlap adds.
 
 Slides S12, S13; lectures/05_contact.md.
 """
@@ -12,10 +13,10 @@ import numpy as np
 
 from ..collision import ContactArrays
 from ..compiled import compiled, compiled_apart, inner
-from ..contacts import contact_rows, label_islands
+from ..contacts import contact_rows, label_islands, root
 from ..correction import displace
-from .moving import scatter_velocities
 from .held import join
+from .moving import scatter_velocities
 
 DEEP = 10  # times the gap that counts as none
 MOST_LIFTS = 20
@@ -29,9 +30,10 @@ def lift(sim, contacts, h):
     if depth(sim, contacts) <= DEEP * sim.closed:
         return contacts
     label, start, had = np.arange(len(sim.before)), sim.state.x.copy(), energies(sim.M, sim.before)
+    way = np.zeros_like(sim.before)
     for _ in range(MOST_LIFTS):
         held = sim.held.rows_with(*sim.held.to_lift())
-        sim.raise_apart(sim.state, contacts, held, sim.speeds, label, sim.limits, sim.worst)
+        sim.raise_apart(sim.state, contacts, held, sim.speeds, label, way, sim.limits, sim.worst)
         sim.fill(sim.now, h)
         contacts = sim.find(h)
         if depth(sim, contacts) <= sim.closed:
@@ -40,7 +42,7 @@ def lift(sim, contacts, h):
     if sim.held.worst() > TORN * sim.held.size:
         sim.open = sim.held.worst()
         sim.state.y[:] = np.nan  # which ends the run: no step may be built on joints that don't close
-    sim.lifted[0] += slow_down(sim.system, sim.state, start, had, label, sim.speeds)
+    sim.lifted[0] += slow_down(sim.system, sim.state, start, had, way, label, sim.speeds)
     sim.fill(sim.now, h)
     return contacts
 
@@ -67,15 +69,18 @@ def deepest(contacts):
 
 
 @compiled_apart
-def raise_apart(solve, state, contacts, held, speeds, label, limits, worst):
+def raise_apart(solve, state, contacts, held, speeds, label, way, limits, worst):
     """One move that brings all gaps, as they are to first order, to 0 at least; friction has no part in it.
 
-    label (n,): the islands of the moves before, and with those of this one.
+    label (n,): the islands of the moves before, and with those of this one; way (n, k): their sum.
     """
     rows, δ, λ = upright_rows(contacts, held, speeds.before)
     δ = solve(rows, speeds.M, δ, λ, limits, worst)
     join_islands(label, rows.bodies)
     displace_by(state, δ)
+    for i in range(len(way)):
+        for a in range(way.shape[1]):
+            way[i, a] += δ[i, a]
 
 
 @compiled_apart
@@ -91,10 +96,13 @@ def upright_rows(contacts, held, u):
 
 @compiled
 def join_islands(label, bodies):
-    """Each body's label becomes the least that it has ever had."""
+    """Join islands that these rows (m, 2) connect: label (n,) in place."""
     now = label_islands(bodies, len(label))
     for i in range(len(label)):
-        label[i] = min(label[i], now[i])
+        one, other = root(label, i), root(label, now[i])
+        label[max(one, other)] = min(one, other)
+    for i in range(len(label)):
+        label[i] = root(label, i)
 
 
 @compiled
@@ -108,9 +116,9 @@ def displace_by(state, δ):
 
 
 @compiled_apart
-def slow_down(system, state, start, had, label, speeds):
+def slow_down(system, state, start, had, way, label, speeds):
     """Take the energy that lifting gave from the speeds; returns what is not paid, J. start (n, d), had (n,):
-    where the bodies were, and their energies of motion.
+    where the bodies were, and their energies of motion; way (n, k): how they were moved.
     """
     has = energies(speeds.M, speeds.before)
     gain = np.zeros(len(start))
@@ -118,7 +126,7 @@ def slow_down(system, state, start, had, label, speeds):
         gain[i] = has[i] - had[i]
         for a in range(start.shape[1]):
             gain[i] -= system.mass[i] * system.gravity[a] * (state.x[i, a] - start[i, a])
-    unpaid = pay(label, gain, has, speeds.before, np.zeros((2, len(start))))
+    unpaid = pay(label, gain, has, way, speeds.M, speeds.before, np.zeros((4, len(start))))
     scatter_velocities(system, speeds.before, state)
     return unpaid
 
@@ -135,22 +143,35 @@ def energies(M, u):
 
 
 @inner
-def pay(label, gain, energy, u, room):
+def pay(label, gain, energy, way, M, u, room):
     """Slow each island's bodies, which have these energies (n,), until they have lost what lifting gave;
-    returns what could not be paid, J. room (2, n), zeros.
+    returns what could not be paid, J. room (4, n), zeros.
+
+    ½ |u − s way|²_M = ½ |u|²_M − gain, an equation for s; where it has no solution, the s that takes most.
     """
-    gained, has = room[0], room[1]
-    for i in range(len(u)):
+    n, k = u.shape
+    gained, has, slope, square = room[0], room[1], room[2], room[3]
+    for i in range(n):
         gained[label[i]] += gain[i]
         has[label[i]] += energy[i]
+        for a in range(k):
+            for b in range(k):
+                slope[label[i]] += u[i, a] * M[i, a, b] * way[i, b]
+                square[label[i]] += 0.5 * way[i, a] * M[i, a, b] * way[i, b]
     unpaid = 0.0
-    for i in range(len(u)):
-        if gained[i] > has[i]:
-            unpaid += gained[i] - has[i]
-    for i in range(len(u)):
-        island = label[i]
-        if gained[island] > 0 and has[island] > 0:
-            share = np.sqrt(max(0.0, 1 - gained[island] / has[island]))
-            for a in range(u.shape[1]):
-                u[i, a] *= share
+    for i in range(n):
+        island, s, share = label[i], 0.0, 1.0
+        if not gained[island] > 0:
+            continue
+        if slope[island] > 0 and square[island] > 0:
+            under = slope[island] ** 2 - 4 * square[island] * gained[island]
+            s = (slope[island] - np.sqrt(max(under, 0.0))) / (2 * square[island])
+        taken = s * (slope[island] - s * square[island])
+        left, rest = gained[island] - taken, has[island] - taken
+        if left > 1e-15 * gained[island]:
+            share = np.sqrt(max(0.0, 1 - left / rest)) if rest > 0 else 0.0
+        if island == i:
+            unpaid += max(0.0, left - max(rest, 0.0))
+        for a in range(k):
+            u[i, a] = share * (u[i, a] - s * way[i, a])
     return unpaid

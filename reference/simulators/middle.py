@@ -22,10 +22,9 @@ import numpy as np
 
 from ..collision import ContactArrays
 from ..compiled import bind, compiled, compiled_apart, inner, lean
-from ..contacts import along, fill_masses, keys, label_islands, parting_speed, relative_velocity
+from ..contacts import along, keys, label_islands, parting_speed, relative_velocity
 from ..lcp.augmented import dot
-from ..lcp.contact_sweeps import divide_by_mass
-from .moving import gather_velocities, move
+from .moving import move
 
 SAME = 0.9  # cosine of the angle between two normals of one contact, at least
 LEFT = 0.25  # of the bias: by so much its error may let a contact close
@@ -44,21 +43,15 @@ def make_half_way(collider):
 
 
 @compiled_apart
-def half_way(search, system, state, work, speeds, near, contacts, h, share, limits):
-    """Fly for half of h with the velocities that there are. Returns, half way, M (n, k, k), u (n, k), what u
-    would be after the step without contact, and these contacts.
+def half_way(search, system, state, work, speeds, near, contacts, h, limits):
+    """Fly for half of h with the velocities that there are. Returns these contacts as they are half way.
 
     search(near, state, margin, h) finds the contacts, and returns whether there was room for all.
     """
-    u = speeds.before
-    move(system, u, u, 0.5 * h, state, work)
-    M, before, free = speeds.M.copy(), np.empty_like(u), np.empty_like(u)
-    fill_masses(system, state, M)
-    gather_velocities(state, before)
-    fill_half_way(speeds, M, before, share, free, np.zeros((2, u.shape[1])))
-    if not moves(contacts, before) or not search(near, state, reach(speeds, h, limits.closed), h):
-        return M, before, free, contacts
-    return M, before, free, matched(contacts, near.room, limits.bodies)
+    move(system, speeds.before, speeds.before, 0.5 * h, state, work)
+    if not moves(contacts, speeds.before) or not search(near, state, reach(speeds, h, limits.closed), h):
+        return contacts
+    return matched(contacts, near.room, limits.bodies)
 
 
 @inner
@@ -73,20 +66,6 @@ def search(detect, near, state, margin, h):
 def no_search(near, state, margin, h):
     """Where nothing can touch."""
     return False
-
-
-@inner
-def fill_half_way(speeds, M, before, share, free, room):
-    """Into free (n, k): before + M⁻¹ f, with the impulses f that the forces had at the start. room (2, k)."""
-    f, change = room[0], room[1]
-    for i in range(len(free)):
-        for a in range(len(f)):
-            f[a] = 0.0
-            for b in range(len(f)):
-                f[a] += speeds.M[i, a, b] * (speeds.free[i, b] - speeds.before[i, b]) * share
-        divide_by_mass(M[i], f, change)
-        for a in range(len(f)):
-            free[i, a] = before[i, a] + change[a]
 
 
 @lean
@@ -132,11 +111,12 @@ def matched(contacts, now, bodies):
 
 
 @compiled_apart
-def add_bias(rows, contacts, half, speeds, before, free, gap, h, closed):
+def add_bias(rows, contacts, half, start, middle, gap, h, closed):
     """To c of the contacts' rows, what w has changed by until half way; to gap (m,), what its error may be.
 
-    An island in which something lands is left as it is.
+    start (n, k): the velocities at the start. An island in which something lands is left as it is.
     """
+    before, free = middle.before, middle.free
     label = label_islands(rows.bodies, len(before))
     lands = np.zeros(len(before), np.bool_)
     for q in range(contacts.count[0]):
@@ -148,10 +128,10 @@ def add_bias(rows, contacts, half, speeds, before, free, gap, h, closed):
         if contacts.gap[q] > closed or lands[label[owner(contacts, q)]]:
             continue
         first = rows.block[q]
-        bias = parting_speed(half, q, before) - parting_speed(contacts, q, speeds.before)
+        bias = parting_speed(half, q, before) - parting_speed(contacts, q, start)
         rows.c[first] += bias
         gap[q] += LEFT * h * abs(bias)
-        now, then = relative_velocity(half, q, before), relative_velocity(contacts, q, speeds.before)
+        now, then = relative_velocity(half, q, before), relative_velocity(contacts, q, start)
         changed = now[0] - then[0], now[1] - then[1], now[2] - then[2]
         for r in range(first + 1, rows.block[q + 1]):
             rows.c[r] += along(half.frame[q, r - first], changed)

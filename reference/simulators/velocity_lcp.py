@@ -19,7 +19,7 @@ from ..forces import external_force, with_user_forces
 from ..trajectory import BodyState
 from .bouncing import MOST_IMPACTS, hop, strike
 from .coasting import coast
-from .flight import Limits, Turning, flight
+from .flight import Limits, Turning, push
 from .free import fill_free, make_speeds
 from .held import Held, join
 from .impacts import IMPACTS
@@ -36,7 +36,8 @@ class VelocityLCP:
     """A scene made ready to run with contact: ``advance`` moves ``state``, and records if told to.
 
     While a step is under way: M, before and free are the mass matrices, the velocities u now and those
-    that there would be after ``filled`` s without contact; ``now`` is the time of the clock.
+    that there would be after ``filled`` s without contact; ``now`` is the time of the clock; ``middle`` is
+    the same as M, before and free, but half way.
     """
 
     coasts = True  # whether ``coast`` may take the steps in which nothing special happens
@@ -55,7 +56,7 @@ class VelocityLCP:
         self.fill_free = bind(fill_free, force)
         n, self.d = self.state.x.shape
         self.k = 6 if self.d == 3 else 3
-        self.speeds = make_speeds(n, self.d, self.k, self.state.ω)
+        self.speeds, self.middle = (make_speeds(n, self.d, self.k, self.state.ω) for _ in range(2))
         self.M, self.before, self.free, _, _ = self.speeds
         self.work = Turning(30, 1e-15, np.zeros(2), np.zeros_like(self.state.L))
         radius = self.collider.solids.form.radius if self.collider else np.zeros(0)
@@ -66,12 +67,14 @@ class VelocityLCP:
         self.limits = Limits(*self.solver.limits, self.closed, len(bodies.mass), self.warm)
         compiled_whole = self.solver.name == "cone_newton"
         solve = newton_in_cones if compiled_whole else self.solve_in_flight
+        self.half_way, self.push = make_half_way(self.collider), bind(push, solve)
         self.raise_apart = bind(raise_apart, solve)
-        self.flight = bind(flight, make_half_way(self.collider), solve)
         self.coast = None  # what takes ordinary steps by itself
         simple = not len(self.held) and not scene.user_forces
         if self.coasts and compiled_whole and self.collider and simple:
-            self.coast = bind(coast, self.fill_free, self.collider.detect, self.flight, self.raise_apart)
+            self.coast = bind(
+                coast, self.fill_free, self.collider.detect, self.half_way, self.push, self.raise_apart
+            )
         self.begin()
 
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
@@ -121,7 +124,7 @@ class VelocityLCP:
         """Up to so many ordinary steps, in which nothing strikes or overlaps; returns how many are done."""
         contacts = self.collider.contacts
         done, self.still, pushed, half, impulse = self.coast(
-            self.system, self.state, self.work, self.speeds, self.near(), contacts,
+            self.system, self.state, self.work, self.speeds, self.middle, self.near(), contacts,
             self.held.rows_with(*self.held.in_flight(h)), (self.key, self.force), t, h, steps, self.limits,
             self.worst, self.lifted, self.timeless,
         )  # fmt: skip
@@ -182,11 +185,17 @@ class VelocityLCP:
         return self.solver(rows, M, free, λ, time=self.now)
 
     def fly(self, contacts, h):
-        """Move on by h, without rebound. Returns h."""
-        held = self.held.rows_with(*self.held.in_flight(h))
-        key, half, impulse, λ = self.flight(
-            self.system, self.state, self.work, self.speeds, self.near(), contacts, held, self.key,
-            self.force, h, h / self.filled, self.limits, self.worst,
+        """Move on by h, without rebound: half way, the impulses there, and the other half. Returns h."""
+        self.held.fill(self.state)
+        start = self.held.from_start(h, self.before)
+        half = self.half_way(
+            self.system, self.state, self.work, self.speeds, self.near(), contacts, h, self.limits
+        )
+        self.fill_free(self.system, self.now + 0.5 * h, h, self.state, self.middle)
+        held = self.held.half_way(start, self.state, self.middle.before)
+        key, impulse, λ = self.push(
+            self.system, self.state, self.work, self.speeds, self.middle, contacts, half, held, self.key,
+            self.force, h, self.limits, self.worst,
         )  # fmt: skip
         self.note_impulses(half, key, impulse, λ, h)
         return h
