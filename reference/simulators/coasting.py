@@ -8,7 +8,7 @@ Slides S9, S12; lectures/05_contact.md.
 
 import numpy as np
 
-from ..compiled import compiled, inner
+from ..compiled import compiled, compiled_apart, inner
 from ..integrators import copy
 from .bouncing import look_ahead
 from .lifting import DEEP, MOST_LIFTS, deepest, energies, slow_down, told_depth
@@ -17,41 +17,20 @@ from .smooth import all_finite
 
 
 @compiled
-def coast(fill_free, detect, half_way, push, raise_apart, system, state, work, speeds, middle, near, contacts,
-          held, pushed, t, h, steps, limits, worst, lifted, timeless):  # fmt: skip
+def coast(fill_free, settle, half_way, push, system, state, work, speeds, middle, near, contacts, held,
+          pushed, t, h, steps, limits, worst, lifted, timeless):  # fmt: skip
     """Up to so many steps of h s from the time t; pushed: keys (c,) and forces (c, d) of the contacts before.
 
     Returns how many are done; whether the last left the state as it was; ``pushed`` now; and the contacts,
     half way, and the impulses of the last step. It ends before a step that is none of the ordinary, or whose
-    state would not be finite. lifted (2,): the energy that lifting added, J, is added to the first; the
-    second is the deepest that stays in each other.
+    state would not be finite.
     """
-    solids, grid, pairs, spare, raw = near.collider
-    before, start, impulse, there = state.y.copy(), state.x.copy(), pushed[1], contacts
-    label, had, way = numbers(len(start)), np.zeros(len(start)), np.zeros_like(speeds.before)
+    before, impulse, there = state.y.copy(), pushed[1], contacts
+    room = settle(system, state, speeds, near, contacts, held, t, h, limits, worst, lifted)
     for done in range(steps):
-        copy(state.y, before)
-        lifts, unpaid, stays = 0, 0.0, 0.0
-        while True:  # find the contacts, and lift apart what overlaps
-            fill_free(system, t + done * h, h, state, speeds)
-            margin = reach(speeds, h, limits.closed)
-            found = detect(solids, grid, pairs, spare, raw, contacts, state, margin, h)
-            room = found[0] <= len(pairs) and found[1] <= len(contacts.gap)
-            if not room or lifts == MOST_LIFTS or deepest(contacts) <= limits.closed * (1 if lifts else DEEP):
-                break
-            if lifts == 0:
-                copy_positions(state.x, start)
-                label, had = numbers(len(start)), energies(speeds.M, speeds.before)
-                way = np.zeros_like(speeds.before)
-            raise_apart(state, contacts, held, speeds, label, way, limits, worst)
-            lifts += 1
-        if lifts > 0:
-            stays = told_depth(contacts, limits.closed)
-            unpaid = slow_down(system, state, start, had, way, label, speeds)
-            fill_free(system, t + done * h, h, state, speeds)
         if not (room and quiet(contacts, speeds, h, limits)):
-            copy(before, state.y)
             return done, False, pushed, there, impulse
+        copy(state.y, before)
         half = half_way(system, state, work, speeds, near, contacts, h, limits)
         fill_free(system, t + (done + 0.5) * h, h, state, middle)
         key, made, _ = push(
@@ -60,28 +39,43 @@ def coast(fill_free, detect, half_way, push, raise_apart, system, state, work, s
         if not all_finite(state.y):
             copy(before, state.y)
             return done, False, pushed, there, impulse
-        lifted[0] += unpaid
-        lifted[1] = max(lifted[1], stays)
         there, impulse = half, made
         if limits.warm:
             pushed = key, over(impulse, h)
         if timeless and same(before, state.y):
             return done + 1, True, pushed, there, impulse
+        now = t + (done + 1) * h
+        room = settle(system, state, speeds, near, contacts, held, now, h, limits, worst, lifted)
     return steps, False, pushed, there, impulse
 
 
-@inner
-def copy_positions(x, to):
-    """Copy (n, d)."""
-    for i in range(len(x)):
-        for a in range(x.shape[1]):
-            to[i, a] = x[i, a]
+@compiled_apart
+def settle(fill_free, detect, raise_apart, system, state, speeds, near, contacts, held, t, h, limits, worst,
+           lifted):  # fmt: skip
+    """Find the contacts of the step from t on, and lift apart what overlaps. Returns whether there was room.
 
-
-@compiled(door=False)
-def numbers(n):
-    """0, 1, … n − 1."""
-    return np.arange(n)
+    lifted (2,): the energy that lifting added, J, is added to the first; the second is the deepest that
+    stays in each other.
+    """
+    solids, grid, pairs, spare, raw = near.collider
+    start, label, had = state.x.copy(), np.arange(len(state.x)), np.zeros(len(state.x))
+    way, lifts, room = np.zeros_like(speeds.before), 0, True
+    while True:
+        fill_free(system, t, h, state, speeds)
+        margin = reach(speeds, h, limits.closed)
+        found = detect(solids, grid, pairs, spare, raw, contacts, state, margin, h)
+        room = found[0] <= len(pairs) and found[1] <= len(contacts.gap)
+        if not room or lifts == MOST_LIFTS or deepest(contacts) <= limits.closed * (1 if lifts else DEEP):
+            break
+        if lifts == 0:
+            had = energies(speeds.M, speeds.before)
+        raise_apart(state, contacts, held, speeds, label, way, limits, worst)
+        lifts += 1
+    if lifts > 0:
+        lifted[1] = max(lifted[1], told_depth(contacts, limits.closed))
+        lifted[0] += slow_down(system, state, start, had, way, label, speeds)
+        fill_free(system, t, h, state, speeds)
+    return room
 
 
 @compiled(door=False)
