@@ -8,7 +8,7 @@ Slides S9, S12; lectures/05_contact.md.
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart, inner
+from ..compiled import bind, compiled, compiled_apart, inner, lean_apart
 from ..integrators import copy
 from .bouncing import look_ahead
 from .lifting import DEEP, MOST_LIFTS, deepest, energies, slow_down, told_depth
@@ -50,32 +50,47 @@ def coast(fill_free, settle, half_way, push, system, state, work, speeds, middle
 
 
 @compiled_apart
-def settle(fill_free, detect, raise_apart, system, state, speeds, near, contacts, held, t, h, limits, worst,
-           lifted):  # fmt: skip
+def settle(look, lift_all, system, state, speeds, near, contacts, held, t, h, limits, worst, lifted):
     """Find the contacts of the step from t on, and lift apart what overlaps. Returns whether there was room.
 
     lifted (2,): the energy that lifting added, J, is added to the first; the second is the deepest that
     stays in each other.
     """
+    room = look(system, state, speeds, near, contacts, t, h, limits)
+    if not room or deepest(contacts) <= DEEP * limits.closed:
+        return room
+    return lift_all(system, state, speeds, near, contacts, held, t, h, limits, worst, lifted)
+
+
+def make_settle(fill_free, detect, raise_apart):
+    """``settle`` with these functions."""
+    seen = bind(look, fill_free, detect)
+    return bind(settle, seen, bind(lift_all, seen, raise_apart))
+
+
+@lean_apart
+def look(fill_free, detect, system, state, speeds, near, contacts, t, h, limits):
+    """Fill in the speeds, and find the contacts of the step from t on. Returns whether there was room."""
     solids, grid, pairs, spare, raw = near.collider
-    start, label, had = state.x.copy(), np.arange(len(state.x)), np.zeros(len(state.x))
-    way, lifts, room = np.zeros_like(speeds.before), 0, True
-    while True:
-        fill_free(system, t, h, state, speeds)
-        margin = reach(speeds, h, limits.closed)
-        found = detect(solids, grid, pairs, spare, raw, contacts, state, margin, h)
-        room = found[0] <= len(pairs) and found[1] <= len(contacts.gap)
-        if not room or lifts == MOST_LIFTS or deepest(contacts) <= limits.closed * (1 if lifts else DEEP):
-            break
-        if lifts == 0:
-            had = energies(speeds.M, speeds.before)
+    fill_free(system, t, h, state, speeds)
+    margin = reach(speeds, h, limits.closed)
+    found = detect(solids, grid, pairs, spare, raw, contacts, state, margin, h)
+    return found[0] <= len(pairs) and found[1] <= len(contacts.gap)
+
+
+@compiled_apart
+def lift_all(look, raise_apart, system, state, speeds, near, contacts, held, t, h, limits, worst, lifted):
+    """Lift apart what overlaps, again and again; as ``settle``."""
+    start, label, had = state.x.copy(), np.arange(len(state.x)), energies(speeds.M, speeds.before)
+    way, room = np.zeros_like(speeds.before), True
+    for _ in range(MOST_LIFTS):
         raise_apart(state, contacts, held, speeds, label, way, limits, worst)
-        lifts += 1
-    if lifts > 0:
-        lifted[1] = max(lifted[1], told_depth(contacts, limits.closed))
-        lifted[0] += slow_down(system, state, start, had, way, label, speeds)
-        fill_free(system, t, h, state, speeds)
-    return room
+        room = look(system, state, speeds, near, contacts, t, h, limits)
+        if not room or deepest(contacts) <= limits.closed:
+            break
+    lifted[1] = max(lifted[1], told_depth(contacts, limits.closed))
+    lifted[0] += slow_down(system, state, start, had, way, label, speeds)
+    return room and look(system, state, speeds, near, contacts, t, h, limits)
 
 
 @compiled(door=False)

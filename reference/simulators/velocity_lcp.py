@@ -18,7 +18,7 @@ from ..contacts import contact_rows, gather, keys, look_up, part, spread
 from ..forces import external_force, with_user_forces
 from ..trajectory import BodyState
 from .bouncing import MOST_IMPACTS, hop, strike
-from .coasting import coast, settle
+from .coasting import coast, make_settle
 from .flight import Limits, Turning, push
 from .free import fill_free, make_speeds
 from .held import Held, join
@@ -72,8 +72,8 @@ class VelocityLCP:
         self.coast = None  # what takes ordinary steps by itself
         simple = not len(self.held) and not scene.user_forces
         if self.coasts and compiled_whole and self.collider and simple:
-            settling = bind(settle, self.fill_free, self.collider.detect, self.raise_apart)
-            self.coast = bind(coast, self.fill_free, settling, self.half_way, self.push)
+            settle = make_settle(self.fill_free, self.collider.detect, self.raise_apart)
+            self.coast = bind(coast, self.fill_free, settle, self.half_way, self.push)
         self.begin()
 
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
@@ -146,7 +146,7 @@ class VelocityLCP:
         self.still = self.timeless and impacts == 1 and np.array_equal(start, self.state.y)
         if not self.still:  # what is recorded is a state that joints and contacts allow
             self.fill(t + h, h)
-            lift(self, self.within(0.0), h)
+            lift(self, self.find(h), h)
 
     def fill(self, t, h):
         """M, u, and the velocities that there would be after h without contact."""
