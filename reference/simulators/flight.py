@@ -124,8 +124,8 @@ def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, us
     """Into used (n, k): with which velocity each body moves in the second half, so that it is u + θ (u⁺ − u)
     in the whole. gap (m,), m, of each contact; slack, m: a gap that counts as none; room (5, n), zeros.
 
-    Where the energy would rise whatever θ is, λ isn't Coulomb's, but what a solver had when it stopped; there
-    u⁺ is made slower.
+    θ is ½, or as much more as keeps the energy from rising; where none does (a solver stopped early; the
+    weight brakes what moves), u⁺ is made as much slower.
     """
     n, k = before.shape
     work, size, lands, force, energy = room[0], room[1], room[2], room[3], room[4]
@@ -155,12 +155,13 @@ def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, us
     for i in range(n):
         island, θ, share = label[i], 0.5, 1.0
         gains = work[island] > NO_WORK * size[island]
-        if lands[island] > 0 or (gains and not 2 * work[island] < force[island]):
-            θ, excess = 1.0, work[island] - 0.5 * force[island]
-            if excess > NO_WORK * (size[island] + energy[island]):
-                share = np.sqrt(max(0.0, 1 - excess / energy[island]))
-        elif gains:
-            θ += work[island] / force[island]
+        if lands[island] > 0 or (gains and force[island] > 0):
+            θ = 1.0
+            if lands[island] == 0 and 2 * work[island] < force[island]:
+                θ = 0.5 + work[island] / force[island]
+        excess = work[island] - (θ - 0.5) * force[island]
+        if excess > NO_WORK * (size[island] + energy[island]):
+            share = np.sqrt(max(0.0, 1 - excess / energy[island]))
         for a in range(k):
             used[i, a] = after[i, a] + (2 * θ - 1) * (after[i, a] - before[i, a])
             after[i, a] *= share
