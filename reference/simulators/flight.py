@@ -153,12 +153,11 @@ def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, us
                 force[label[i]] += (free[i, a] - before[i, a]) * M[i, a, b] * (after[i, b] - before[i, b])
                 energy[label[i]] += 0.5 * after[i, a] * M[i, a, b] * after[i, b]
     for i in range(n):
-        island, θ, share = label[i], 0.5, 1.0
+        island, share = label[i], 1.0
         gains = work[island] > NO_WORK * size[island]
-        if lands[island] > 0 or (gains and force[island] > 0):
-            θ = 1.0
-            if lands[island] == 0 and 2 * work[island] < force[island]:
-                θ = 0.5 + work[island] / force[island]
+        θ = 1.0 if lands[island] > 0 else 0.5
+        if θ < 1 and gains and 2 * work[island] < force[island]:
+            θ += work[island] / force[island]
         excess = work[island] - (θ - 0.5) * force[island]
         if excess > NO_WORK * (size[island] + energy[island]):
             share = np.sqrt(max(0.0, 1 - excess / energy[island]))
