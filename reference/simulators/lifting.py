@@ -19,7 +19,7 @@ from .held import join
 from .moving import scatter_velocities
 
 DEEP = 10  # times the gap that counts as none
-MOST_LIFTS = 20
+MOST_LIFTS, MOST_CLOSINGS = 20, 200  # moves in one step; where light links bear much, joints need many
 TORN = 1e-6  # of the mechanism's size: an opening of joints that no move mends
 
 
@@ -31,7 +31,7 @@ def lift(sim, contacts, h):
         return contacts
     label, start, had = np.arange(len(sim.before)), sim.state.x.copy(), energies(sim.M, sim.before)
     way = np.zeros_like(sim.before)
-    for _ in range(MOST_LIFTS):
+    for _ in range(MOST_CLOSINGS if len(sim.held) else MOST_LIFTS):
         held = sim.held.rows_with(*sim.held.to_lift())
         sim.raise_apart(sim.state, contacts, held, sim.speeds, label, way, sim.limits, sim.worst)
         sim.fill(sim.now, h)
