@@ -1,11 +1,13 @@
-"""Between two impacts: with which velocity each body moves, and where it comes to rest.
+"""The second half of a flight: impulses; with which velocity each body moves on; where it comes to rest.
 
-A step changes the velocities from u to u⁺. Bodies that move with the *mean* ½ (u + u⁺) fly as thrown
-stones do, exactly, and what slides is as exact; a step changes then the energy by just ½ λᵀ (w + w⁺), the
-work of the contacts. Where that would be positive (a contact that begins to stick within the step), or
-where the mean would lead into another body (it lands), the bodies move with the *end* velocity u⁺: the
-energy then changes by λᵀ w⁺ − ½ |u⁺ − u|²_M, which never is positive. All bodies of an island, which
-touch each other, do the same. So contact never feeds energy into a scene, whatever Δt is.
+Half way the velocities u become u⁺. A body that moves with u before and with u⁺ after has moved with the
+*mean* ½ (u + u⁺): it flies as a thrown stone does, exactly, and what slides is as exact; a step changes then
+the energy by just ½ λᵀ (w + w⁺), the work of the contacts. Where that would lead into another body (it
+lands), the bodies move as if with the *end* velocity u⁺ from the start; the energy then changes by
+λᵀ w⁺ − ½ |u⁺ − u|²_M, which isn't positive. Where the contacts' work is positive (a contact begins to stick
+within the step), they move with as much of the end velocity as makes the energy stay; and where none does,
+u⁺ is made slower. All bodies of an island, which touch each other, do the same. So contact never feeds
+energy into a scene, whatever Δt is.
 
 Slides S9, S12; lectures/05_contact.md.
 """

@@ -114,18 +114,16 @@ def matched(contacts, now, bodies):
 def add_bias(rows, contacts, half, start, middle, gap, h, closed):
     """To c of the contacts' rows, what w has changed by until half way; to gap (m,), what its error may be.
 
-    start (n, k): the velocities at the start. An island in which something lands is left as it is.
+    start (n, k): the velocities at the start. An island in which something lands, by the speed that it has
+    then, is left as it is.
     """
-    before, free = middle.before, middle.free
-    label = label_islands(rows.bodies, len(before))
-    lands = np.zeros(len(before), np.bool_)
+    before, label = middle.before, label_islands(rows.bodies, len(start))
+    lands = np.zeros(len(start), np.bool_)
     for q in range(contacts.count[0]):
-        if contacts.gap[q] > closed:
-            w = min(parting_speed(half, q, before), parting_speed(half, q, free))
-            if contacts.gap[q] + h * w < 0:
-                lands[label[owner(contacts, q)]] = True
+        if contacts.gap[q] > closed and contacts.gap[q] + h * parting_speed(contacts, q, start) < 0:
+            lands[label[owner(contacts, q)]] = True
     for q in range(contacts.count[0]):
-        if contacts.gap[q] > closed or lands[label[owner(contacts, q)]]:
+        if lands[label[owner(contacts, q)]]:
             continue
         first = rows.block[q]
         bias = parting_speed(half, q, before) - parting_speed(contacts, q, start)
