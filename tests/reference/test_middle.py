@@ -35,12 +35,12 @@ def test_a_box_that_falls_over_its_corner():
         want = d * np.array([np.sin(φ), np.cos(φ)])
         off.append(max(np.abs(run.position[-1, 1] - want).max(), abs(run.angular_velocity[-1, 1] + ω)))
         assert run.penetration().max() <= 1e-8  # the measure by which things are lifted apart
-    assert off[0] < 5e-3 and (orders(off) > 1.7).all()
+    assert off[0] < 1e-2 and (orders(off) > 1.7).all()
 
 
 def test_a_box_that_tumbles_over_its_corner_in_space():
     """A heavy rigid body about a fixed point: L̇ = r × m g in the world, by SciPy."""
-    size, end, mass = np.array([0.3, 0.5, 0.8]), 0.2, 2.0
+    size, end, mass = np.array([0.3, 0.5, 0.8]), 0.1, 2.0
     start = Rotation.align_vectors([[0, 0, 1]], [[0.5, 0.6, 0.62]])[0]
     corner = -size * np.sign(start.as_matrix()[2])  # the lowest, as the body sees it
     square = size**2
