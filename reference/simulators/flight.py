@@ -21,6 +21,7 @@ from ..contacts import contact_rows, gather, keys, label_islands, look_up, sprea
 from .held import join
 from .middle import add_bias
 from .moving import move
+from .paying import energies, pay
 from .resting import leave_out_rest, put_back
 
 REST = 100  # times the solver's tolerance: so slow is at rest, where contacts hold it
@@ -95,8 +96,9 @@ def finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits
     """Rest, and the new positions and velocities, once u⁺ = ``after`` is known."""
     label, room = label_islands(rows.bodies, len(after)), np.zeros((8, len(after)))
     let_rest(label, rows, λ, before, free, after, REST * limits.tolerance, room[:3])
-    used = np.empty_like(after)
-    choose_velocities(rows, label, gap, M, before, free, after, λ, h, limits.closed, used, room[3:])
+    used, excess, slack = np.empty_like(after), np.zeros(len(after)), limits.closed
+    if choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, used, excess, room[3:]):
+        pay(label, excess, energies(M, after), after - free, M, after, np.zeros((4, len(after))))
     move(system, used, after, 0.5 * h, state, work)
 
 
@@ -122,12 +124,13 @@ def closing_speeds(contacts, h, closed):
 
 
 @inner
-def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, used, room):
+def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, used, excess, room):
     """Into used (n, k): with which velocity each body moves in the second half, so that it is u + θ (u⁺ − u)
     in the whole. gap (m,), m, of each contact; slack, m: a gap that counts as none; room (5, n), zeros.
 
-    θ is ½, or as much more as keeps the energy from rising; where none does (a solver stopped early; the
-    weight brakes what moves), u⁺ is made as much slower.
+    θ is ½, or as much more as keeps the energy from rising. Where none does (a solver stopped early; the
+    weight brakes what moves) the energy that is too much is put into excess (n,), an island's at its label.
+    Returns whether there is any.
     """
     n, k = before.shape
     work, size, lands, force, energy = room[0], room[1], room[2], room[3], room[4]
@@ -154,18 +157,19 @@ def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, us
             for b in range(k):
                 force[label[i]] += (free[i, a] - before[i, a]) * M[i, a, b] * (after[i, b] - before[i, b])
                 energy[label[i]] += 0.5 * after[i, a] * M[i, a, b] * after[i, b]
+    gained = False
     for i in range(n):
-        island, share = label[i], 1.0
+        island = label[i]
         gains = work[island] > NO_WORK * size[island]
         θ = 1.0 if lands[island] > 0 else 0.5
         if θ < 1 and gains and 2 * work[island] < force[island]:
             θ += work[island] / force[island]
-        excess = work[island] - (θ - 0.5) * force[island]
-        if excess > NO_WORK * (size[island] + energy[island]):
-            share = np.sqrt(max(0.0, 1 - excess / energy[island]))
+        more = work[island] - (θ - 0.5) * force[island]
+        if island == i and more > NO_WORK * (size[island] + energy[island]):
+            excess[i], gained = more, True
         for a in range(k):
             used[i, a] = after[i, a] + (2 * θ - 1) * (after[i, a] - before[i, a])
-            after[i, a] *= share
+    return gained
 
 
 @inner

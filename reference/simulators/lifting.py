@@ -12,11 +12,12 @@ Slides S12, S13; lectures/05_contact.md.
 import numpy as np
 
 from ..collision import ContactArrays
-from ..compiled import compiled, compiled_apart, inner
+from ..compiled import compiled, compiled_apart
 from ..contacts import contact_rows, label_islands, root
 from ..correction import displace
 from .held import join
 from .moving import scatter_velocities
+from .paying import energies, pay
 
 DEEP = 10  # times the gap that counts as none
 MOST_LIFTS, MOST_CLOSINGS = 20, 200  # moves in one step; where light links bear much, joints need many
@@ -128,50 +129,4 @@ def slow_down(system, state, start, had, way, label, speeds):
             gain[i] -= system.mass[i] * system.gravity[a] * (state.x[i, a] - start[i, a])
     unpaid = pay(label, gain, has, way, speeds.M, speeds.before, np.zeros((4, len(start))))
     scatter_velocities(system, speeds.before, state)
-    return unpaid
-
-
-@compiled
-def energies(M, u):
-    """½ uᵀ M u of each body, J (n,)."""
-    energy = np.zeros(len(u))
-    for i in range(len(u)):
-        for a in range(u.shape[1]):
-            for b in range(u.shape[1]):
-                energy[i] += 0.5 * u[i, a] * M[i, a, b] * u[i, b]
-    return energy
-
-
-@inner
-def pay(label, gain, energy, way, M, u, room):
-    """Slow each island's bodies, which have these energies (n,), until they have lost what lifting gave;
-    returns what could not be paid, J. room (4, n), zeros.
-
-    ½ |u − s way|²_M = ½ |u|²_M − gain, an equation for s; where it has no solution, the s that takes most.
-    """
-    n, k = u.shape
-    gained, has, slope, square = room[0], room[1], room[2], room[3]
-    for i in range(n):
-        gained[label[i]] += gain[i]
-        has[label[i]] += energy[i]
-        for a in range(k):
-            for b in range(k):
-                slope[label[i]] += u[i, a] * M[i, a, b] * way[i, b]
-                square[label[i]] += 0.5 * way[i, a] * M[i, a, b] * way[i, b]
-    unpaid = 0.0
-    for i in range(n):
-        island, s, share = label[i], 0.0, 1.0
-        if not gained[island] > 0:
-            continue
-        if slope[island] > 0 and square[island] > 0:
-            under = slope[island] ** 2 - 4 * square[island] * gained[island]
-            s = (slope[island] - np.sqrt(max(under, 0.0))) / (2 * square[island])
-        taken = s * (slope[island] - s * square[island])
-        left, rest = gained[island] - taken, has[island] - taken
-        if left > 1e-15 * gained[island]:
-            share = np.sqrt(max(0.0, 1 - left / rest)) if rest > 0 else 0.0
-        if island == i:
-            unpaid += max(0.0, left - max(rest, 0.0))
-        for a in range(k):
-            u[i, a] = share * (u[i, a] - s * way[i, a])
     return unpaid
