@@ -29,11 +29,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart, inner, inner_apart
+from ..compiled import compiled_apart, inner, inner_apart
 from ..factored import add_rows
-from .augmented import ContactRows, Law, Pass, dot, evaluate, make_law, make_pass
+from .augmented import ContactRows, Law, Pass, evaluate, make_law, make_pass
 from .cone_interior import start_inside
-from .contact_sweeps import fill_moves, sweep_contacts, velocity
+from .contact_sweeps import block_sizes, fill_moves, sweep_contacts, velocities
 from .coulomb import begin_shift, breach, no_limit, renew_limit, renew_shift, worst_change
 from .iteration import checked, solved_already, unsuitable
 from .problem import ConeProblem
@@ -199,36 +199,6 @@ def take_over(rows, M, softness, coulomb, λ, room):
         renew_shift(rows, room.out.w, room.law)
     off = breach(rows, room.size, softness, coulomb, λ, room.out.w)
     return max(off, worst_rate(M, room.out.gradient))
-
-
-@compiled(door=False)
-def velocities(rows, u):
-    """w = J u + c of all rows (m,)."""
-    w = np.empty(len(rows.c))
-    for r in range(len(w)):
-        w[r] = velocity(rows, r, u)
-    return w
-
-
-@compiled_apart
-def block_sizes(rows, moves, free, size):
-    """A's largest diagonal entry of each block; returns the worst |w| of the free velocities, and the largest
-    sum of its terms' sizes, m/s.
-    """
-    scale, worst = 0.0, 0.0
-    for q in range(len(size)):
-        size[q] = 0.0
-        for r in range(rows.block[q], rows.block[q + 1]):
-            diagonal, terms = 0.0, abs(rows.c[r])
-            for side in range(2):
-                i = rows.bodies[r, side]
-                if i >= 0:
-                    diagonal += dot(rows.J[r, side], moves[r, side])
-                    for a in range(free.shape[1]):
-                        terms += abs(rows.J[r, side, a] * free[i, a])
-            size[q] = max(size[q], diagonal)
-            scale, worst = max(scale, abs(velocity(rows, r, free))), max(worst, terms)
-    return scale, worst
 
 
 def cone_newton(problem, start=None, tolerance=1e-10, max_iterations=1000):

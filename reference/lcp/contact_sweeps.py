@@ -53,6 +53,36 @@ def velocity(rows, r, u):
     return rows.c[r] + row_times(rows.bodies, rows.J, r, u)
 
 
+@compiled(door=False)
+def velocities(rows, u):
+    """w = J u + c of all rows (m,)."""
+    w = np.empty(len(rows.c))
+    for r in range(len(w)):
+        w[r] = velocity(rows, r, u)
+    return w
+
+
+@compiled_apart
+def block_sizes(rows, moves, free, size):
+    """A's largest diagonal entry of each block; returns the worst |w| of the free velocities, and the largest
+    sum of its terms' sizes, m/s.
+    """
+    scale, worst = 0.0, 0.0
+    for q in range(len(size)):
+        size[q] = 0.0
+        for r in range(rows.block[q], rows.block[q + 1]):
+            diagonal, terms = 0.0, abs(rows.c[r])
+            for side in range(2):
+                i = rows.bodies[r, side]
+                if i >= 0:
+                    diagonal += dot(rows.J[r, side], moves[r, side])
+                    for a in range(free.shape[1]):
+                        terms += abs(rows.J[r, side, a] * free[i, a])
+            size[q] = max(size[q], diagonal)
+            scale, worst = max(scale, abs(velocity(rows, r, free))), max(worst, terms)
+    return scale, worst
+
+
 @compiled_apart
 def sweep_contacts(rows, moves, softness, coulomb, λ, u, tolerance, most):
     """Up to so many sweeps, λ and u in place: until none changes a w by more than the tolerance, m/s.

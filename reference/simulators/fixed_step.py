@@ -16,6 +16,7 @@ coherence (2005).
 
 import numpy as np
 
+from ..contacts import gather, keys, look_up, spread
 from ..correction import (
     baumgarte_velocity,
     displace,
@@ -57,6 +58,16 @@ class FixedStep(VelocityLCP):
         self.keep_impulses(contacts, rows, λ, h)
         if self.correction == "nonlinear":
             self.correct_positions(t + h, h)
+
+    def pushed_before(self, contacts, rows):
+        """The forces (r,) of the step before on these rows; 0 where they are new, or without warm start."""
+        pushed = look_up(self.key, self.force, keys(contacts, self.limits.bodies))
+        return gather(rows, pushed, self.held.force)
+
+    def keep_impulses(self, contacts, rows, λ, h):
+        """For the record, and for the next step to begin with."""
+        impulse = spread(rows, λ, len(contacts.gap), self.d)
+        self.note_impulses(contacts, keys(contacts, self.limits.bodies), impulse, λ, h)
 
     def constraints(self, contacts, h):
         """The rows of this step, w = J u + c, and their softness (r,), None where all are rigid."""

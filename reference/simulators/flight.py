@@ -200,5 +200,3 @@ def let_rest(label, rows, λ, before, free, after, tolerance, room):
                 after[i, a] = 0.0
             resting += 1
     return resting
-
-

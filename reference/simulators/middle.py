@@ -21,6 +21,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..collision import ContactArrays
+from ..collision.find import make_contacts
 from ..compiled import bind, compiled, compiled_apart, inner, lean
 from ..contacts import along, keys, label_islands, parting_speed, relative_velocity
 from ..lcp.augmented import dot
@@ -35,6 +36,11 @@ class Near(NamedTuple):
 
     collider: tuple  # the arrays that ``collision.detect`` takes
     room: ContactArrays
+
+
+def make_near(collider, d):
+    """``Near`` for a Collider; None: nothing can touch. d dimensions."""
+    return Near(collider.arrays, collider.spare) if collider else Near((), make_contacts(0, d))
 
 
 def make_half_way(collider):

@@ -1,6 +1,6 @@
 """Velocities into the state, and positions moved by them.
 
-Slides S4, S9; lectures/05_contact.md.
+Slides S9, S12; lectures/05_contact.md.
 """
 
 import numpy as np

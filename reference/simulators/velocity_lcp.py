@@ -14,7 +14,7 @@ import numpy as np
 from ..collision import find_contacts, make_collider
 from ..collision.find import make_contacts
 from ..compiled import bind
-from ..contacts import contact_rows, gather, keys, look_up, part, spread
+from ..contacts import contact_rows, part
 from ..forces import external_force, with_user_forces
 from ..trajectory import BodyState
 from .bouncing import MOST_IMPACTS, hop, strike
@@ -24,7 +24,7 @@ from .free import fill_free, make_speeds
 from .held import Held, join
 from .impacts import IMPACTS
 from .lifting import lift, raise_apart
-from .middle import Near, make_half_way, reach
+from .middle import make_half_way, make_near, reach
 from .smooth import all_finite
 from .solving import StepSolver, Unsolvable, newton_in_cones
 from .touched import Touched
@@ -121,9 +121,9 @@ class VelocityLCP:
 
     def coast_on(self, t, h, steps):
         """Up to so many ordinary steps, in which nothing strikes or overlaps; returns how many are done."""
-        contacts = self.collider.contacts
+        near, contacts = make_near(self.collider, self.d), self.collider.contacts
         done, self.still, pushed, half, impulse = self.coast(
-            self.system, self.state, self.work, self.speeds, self.middle, self.near(), contacts,
+            self.system, self.state, self.work, self.speeds, self.middle, near, contacts,
             self.held.rows_with(*self.held.in_flight(h)), (self.key, self.force), t, h, steps, self.limits,
             self.worst, self.lifted, self.timeless,
         )  # fmt: skip
@@ -165,12 +165,6 @@ class VelocityLCP:
         m = find_contacts(self.collider, self.state, margin, h)
         return part(self.collider.contacts, slice(0, m))
 
-    def near(self):
-        """What contacts half way are looked for with."""
-        if not self.collider:
-            return Near((), make_contacts(0, self.d))
-        return Near(self.collider.arrays, self.collider.spare)
-
     def rows(self, contacts, target, held):
         """The contacts' rows, with w_n ≥ −target, and those of the joints with (c, lower, upper) = held."""
         return join(contact_rows(contacts, target, self.k), self.held.rows_with(*held))
@@ -187,9 +181,8 @@ class VelocityLCP:
         """Move on by h, without rebound: half way, the impulses there, and the other half. Returns h."""
         self.held.fill(self.state)
         start = self.held.from_start(h, self.before)
-        half = self.half_way(
-            self.system, self.state, self.work, self.speeds, self.near(), contacts, h, self.limits
-        )
+        near = make_near(self.collider, self.d)
+        half = self.half_way(self.system, self.state, self.work, self.speeds, near, contacts, h, self.limits)
         self.fill_free(self.system, self.now + 0.5 * h, h, self.state, self.middle)
         held = self.held.half_way(start, self.state, self.middle.before)
         key, impulse, λ = self.push(
@@ -199,18 +192,10 @@ class VelocityLCP:
         self.note_impulses(half, key, impulse, λ, h)
         return h
 
-    def pushed_before(self, contacts, rows):
-        """The forces (r,) of the step before on these rows; 0 where they are new, or without warm start."""
-        pushed = look_up(self.key, self.force, keys(contacts, self.limits.bodies))
-        return gather(rows, pushed, self.held.force)
-
-    def keep_impulses(self, contacts, rows, λ, h):
-        """For the record, and for the next step to begin with."""
-        m = len(contacts.gap)
-        self.note_impulses(contacts, keys(contacts, self.limits.bodies), spread(rows, λ, m, self.d), λ, h)
-
     def note_impulses(self, contacts, key, impulse, λ, h):
-        """The same, of contacts with these keys (m,) and impulses (m, d); λ (r,): of all rows."""
+        """For the record, and for the next step to begin with: of contacts with these keys (m,) and impulses
+        (m, d) in their frames; λ (r,): of all rows.
+        """
         self.touched.add(contacts, impulse)
         if self.warm:
             self.key, self.force = key, impulse / h

@@ -5,6 +5,7 @@ import pytest
 
 from contact_scenes import G, at, ground, stack
 from reference import Box, Disc, Hinge, Simulation, Sphere, simulate
+from reference.contacts import gather, keys, look_up
 from reference.simulators.resting import leave_out_rest, put_back
 
 FRAME = 1 / 60
@@ -39,7 +40,8 @@ def problem_now(scene, duration):
     family.fill(duration, FRAME)
     contacts = family.find(FRAME)
     rows = family.rows(contacts, np.maximum(contacts.gap, 0) / FRAME, family.held.in_flight(FRAME))
-    return family, rows, FRAME * family.pushed_before(contacts, rows)
+    pushed = look_up(family.key, family.force, keys(contacts, family.limits.bodies))
+    return family, rows, FRAME * gather(rows, pushed, family.held.force)
 
 
 @DIMENSIONS
