@@ -135,10 +135,7 @@ class Scene:
         self.springs.append(Spring(a, b, stiffness, damping, length, *ends))
 
     def drag(self, i, linear, angular=0):
-        """Add a force −linear·v (N s/m) and a torque −angular·ω (N m s) to body i.
-
-        A run whose dt is so long that this would speed the body up is refused.
-        """
+        """Add a force −linear·v (N s/m) and a torque −angular·ω (N m s) to body i; it bounds dt."""
         i = self._number("i", i)
         linear, angular = inputs.number("linear", linear, least=0), inputs.number("angular", angular, least=0)
         if angular and isinstance(self.bodies[i].shape, Point):

@@ -29,8 +29,9 @@ def simulate(scene, duration, dt, *, start=None, **settings):
     ``sim.state`` or ``run.state()``; the clock that forces see goes on from its time, while the result's
     ``time`` counts from 0 again. None: as the scene says, at t = 0.
 
-    Raises ValueError or TypeError for bad input, naming the argument; Unsupported where something can't be
-    expressed. A run whose state stops being finite returns what it has, with status "diverged" and the time.
+    Raises ValueError or TypeError for bad input, naming the argument (a dt so long that drag would speed a
+    body up is bad too); Unsupported where something can't be expressed. A run whose state stops being finite
+    returns what it has, with status "diverged" and the time.
     """
     return Simulation(scene, dt, start=start, **settings).run(duration)
 
