@@ -16,7 +16,7 @@ def number(name, value, *, least=None, above=None, finite=True):
     Raises ValueError or TypeError, which name the argument.
     """
     try:
-        result = float(value)
+        result = float(_numeric(value))
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be a number, but is {value!r}") from None
     wanted = "a finite number" if finite else "a number"
@@ -29,6 +29,22 @@ def number(name, value, *, least=None, above=None, finite=True):
     if (least is not None and result < least) or (above is not None and result <= above):
         raise ValueError(f"{name} must be {wanted}, but is {value!r}")
     return result
+
+
+def _numeric(value):
+    """``value`` itself; TypeError for what Python would turn into a number, though nobody means one: text,
+    True and False.
+    """
+    if np.asarray(value).dtype.kind in "bSU":
+        raise TypeError
+    return value
+
+
+def flag(name, value):
+    """True or False; TypeError for anything else, such as "no", which Python takes for true."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError(f"{name} must be True or False, but is {value!r}")
+    return bool(value)
 
 
 def whole(name, value, *, least=0):
@@ -45,7 +61,7 @@ def array(name, value, shape):
     argument.
     """
     try:
-        result = np.array(value, dtype=float)
+        result = np.array(_numeric(value), dtype=float)
     except (TypeError, ValueError):
         raise TypeError(f"{name} must be an array of numbers of shape {shape}, but is {value!r}") from None
     if result.shape != tuple(shape):
@@ -85,6 +101,6 @@ def unit_quaternion(name, value):
 
 def choice(name, value, choices):
     """One of the names in ``choices``, or a ValueError that lists them."""
-    if value not in choices:
+    if value not in list(choices):  # a list, so that what can't be hashed is met too
         raise ValueError(f"{name} must be one of {', '.join(sorted(choices))}, but is {value!r}")
     return value

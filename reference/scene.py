@@ -67,7 +67,7 @@ class Scene:
         Raises TypeError and ValueError, which name the argument, its value and what would be right.
         """
         d = self.dimension
-        static = bool(static) or isinstance(shape, Plane)
+        static = inputs.flag("static", static) or isinstance(shape, Plane)
         turns = self._checked_shape(shape, inertia)
         body = Body(
             shape,
@@ -102,7 +102,7 @@ class Scene:
             raise ValueError(f"j must be another body than i, but both are {i}")
         friction = None if friction is None else inputs.number("friction", friction, least=0)
         restitution = None if restitution is None else self._restitution(restitution)
-        self.pairs[min(i, j), max(i, j)] = Pair(friction, restitution, bool(collide))
+        self.pairs[min(i, j), max(i, j)] = Pair(friction, restitution, inputs.flag("collide", collide))
 
     def spring(self, a, b, stiffness, damping=0, length=None, point_a=None, point_b=None):
         """A spring and damper in parallel between the bodies a and b; b None: the world, at ``point_b``.
@@ -135,7 +135,7 @@ class Scene:
         self.springs.append(Spring(a, b, stiffness, damping, length, *ends))
 
     def drag(self, i, linear, angular=0):
-        """Add a force −linear·v (N s/m) and a torque −angular·ω (N m s) to body i."""
+        """Add a force −linear·v (N s/m) and a torque −angular·ω (N m s) to body i; it bounds dt."""
         i = self._number("i", i)
         linear, angular = inputs.number("linear", linear, least=0), inputs.number("angular", angular, least=0)
         if angular and isinstance(self.bodies[i].shape, Point):
@@ -176,7 +176,7 @@ class Scene:
             raise ValueError(
                 f"a must be a body that can move, or b one, but a is {a} and b is {b!r}, both static"
             )
-        joint = replace(joint, a=a, b=b, collide=bool(joint.collide))
+        joint = replace(joint, a=a, b=b, collide=inputs.flag("collide", joint.collide))
         self.joints.append(joint.checked(self.bodies, self.dimension))
         return len(self.joints) - 1
 

@@ -135,8 +135,12 @@ class Polygon:
     dimensions = (2,)
 
     def __post_init__(self):
-        points = inputs.array("vertices", self.vertices, (len(self.vertices), 2))
-        if len(points) < 3:
+        try:
+            count = len(self.vertices)
+        except TypeError:
+            raise TypeError(f"vertices must be at least 3 points (x, y), but are {self.vertices!r}") from None
+        points = inputs.array("vertices", self.vertices, (count, 2))
+        if count < 3:
             raise ValueError(f"vertices must be at least 3 points, but are {self.vertices!r}")
         area, centroid, _ = _area_moments(points)
         if area < 0:

@@ -155,7 +155,12 @@ class Trajectory:
         return self.find_joint_forces()
 
     def penetration(self):
-        """The depth of the deepest contact, m: (T,); 0 where there is none."""
+        """The depth of the deepest contact, m: (T,); 0 where there is none.
+
+        Raises ValueError for a run that did not record its contacts.
+        """
+        if not self.settings.get("record_contacts", True):
+            raise ValueError("penetration() needs contacts: run with record_contacts=True, not False")
         return np.array([np.max(self.contacts[k].depth, initial=0.0) for k in range(len(self.time))])
 
     @cached_property

@@ -41,7 +41,8 @@ class Integrator:
 
     order: of the error in h, for smooth forces; symmetric: a step of −h undoes a step, where no force depends
     on velocity; conserves: of a free rigid body, to rounding: "momentum", "energy", or nothing; evaluations:
-    of the force in a step; base: the step that a composition repeats.
+    of the force in a step; base: the step that a composition repeats; most_drag: h · drag/mass, beyond which
+    drag makes velocities grow, since no method here is implicit in it.
     """
 
     step: object
@@ -50,6 +51,7 @@ class Integrator:
     conserves: tuple = ()
     evaluations: int = 1
     base: object = None
+    most_drag: float = 2.0
 
     def bind(self, force):
         """The step with its force fixed: ``step(system, t, h, state, work)``, compiled if the force is."""
@@ -61,13 +63,25 @@ INTEGRATORS = {
     "symplectic_euler": Integrator(symplectic_euler, order=1),
     "symplectic_euler_position_first": Integrator(symplectic_euler_position_first, order=1),
     "implicit_gyroscopic": Integrator(implicit_gyroscopic, order=1),
-    "rk4": Integrator(rk4, order=4, evaluations=4),
+    "rk4": Integrator(rk4, order=4, evaluations=4, most_drag=2.785293563),
     "splitting": Integrator(splitting, order=2, symmetric=True, conserves=("momentum",)),
     "splitting4": Integrator(
-        compose4, order=4, symmetric=True, conserves=("momentum",), evaluations=5, base=splitting
+        compose4,
+        order=4,
+        symmetric=True,
+        conserves=("momentum",),
+        evaluations=5,
+        base=splitting,
+        most_drag=3.650135075,
     ),
     "splitting6": Integrator(
-        compose6, order=6, symmetric=True, conserves=("momentum",), evaluations=9, base=splitting
+        compose6,
+        order=6,
+        symmetric=True,
+        conserves=("momentum",),
+        evaluations=9,
+        base=splitting,
+        most_drag=2.646678088,
     ),
     "implicit_midpoint": Integrator(
         implicit_midpoint, order=2, symmetric=True, conserves=("momentum", "energy")

@@ -143,7 +143,8 @@ class Peer:
         steps, every = count_steps(duration, self.dt), inputs.whole("record_every", record_every, least=1)
         done = np.append(np.arange(0, steps, every), steps)
         states = [self.state]
-        watched = self.touching is not None and bool(record_contacts)
+        noted = inputs.flag("record_contacts", record_contacts)
+        watched = self.touching is not None and noted
         if watched:
             self.watch()
         for count in np.diff(done):
@@ -168,7 +169,7 @@ class Peer:
             reason="" if whole else stopped,
             residual=np.zeros(kept),
             iterations=np.zeros(kept, dtype=int),
-            settings=dict(self.settings),
+            settings={**self.settings, "record_contacts": noted},
         )
 
     def _take(self, steps):

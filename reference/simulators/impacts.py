@@ -1,13 +1,14 @@
 """Impacts: what velocities change to at the moment when bodies meet, in no time and with no force but the
 contacts'.
 
-    newton       all contacts at once: w⁺ ≥ −e w, and λ > 0 only where that is an equality        (Newton;
-    Moreau) poisson      all at once, in two phases: until nothing approaches, with impulse λ; then e λ is
-    given back sequential   one contact after the other, the fastest first, until nothing approaches: what
-    one sees in a cradle
+    newton       all contacts at once: w⁺ ≥ −e w, and λ > 0 only where that is an equality (Newton; Moreau)
+    poisson      all at once, in two phases: until nothing approaches, with impulse λ; then e λ is given back
+    sequential   one contact after the other, the fastest first, until nothing approaches: what one sees in a
+                 cradle; each blow by Newton's law
 
-Newton's and Poisson's laws can raise the energy where there is friction (Kane's paradox). Where no law is
-asked for, Newton's is used, with as much of the rebound as the energy before allows.
+All three can raise the energy where there is friction (Newton's: Kane's paradox; so can each blow of a
+sequence). Where no law is asked for, Newton's is used, with as much of the rebound as the energy before
+allows.
 
 Slides S3, S10; lectures/05_contact.md. Source: Moreau, Unilateral contact and dry friction in finite
 freedom dynamics (1988); Glocker & Pfeiffer, Nonlinear Dynamics 7 (1995) 471 (Poisson's); Kane & Levinson,

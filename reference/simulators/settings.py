@@ -83,6 +83,7 @@ class Settings:
                 + f", so it needs {needs.simulator!r}"
             )
         inputs.whole("seed", given.seed)
+        inputs.flag("warm_start", given.warm_start), inputs.flag("record_contacts", given.record_contacts)
         given = replace(
             given,
             simulator=simulator,
@@ -97,8 +98,10 @@ class Settings:
             raise Unsupported(
                 f"integrator={self.integrator!r} has no effect under 'velocity_lcp', which steps by itself"
             )
-        friction = inputs.choice("friction", self.friction or "cone", DEFAULT_SOLVERS)
-        solver = inputs.choice("solver", self.solver or DEFAULT_SOLVERS[friction], SOLVERS)
+        friction = "cone" if self.friction is None else self.friction
+        inputs.choice("friction", friction, DEFAULT_SOLVERS)
+        solver = DEFAULT_SOLVERS[friction] if self.solver is None else self.solver
+        inputs.choice("solver", solver, SOLVERS)
         newton = solver == "cone_newton"
         reason = "" if newton and friction == "cone" else why_unfit(solver, friction, needs.rows > 0)
         if reason:
@@ -167,10 +170,10 @@ def checked_correction(given):
     Raises ValueError or TypeError, which name the argument.
     """
     name, changed = given if isinstance(given, tuple) and len(given) == 2 else (given, {})
+    if not isinstance(name, (str, type(None))) or not isinstance(changed, dict):
+        raise TypeError(f"correction must be a name, or (name, {{parameter: value}}), but is {given!r}")
     name = inputs.choice("correction", "projection" if name is None else name, CORRECTIONS)
     parameters = dict(CORRECTIONS[name])
-    if not isinstance(changed, dict):
-        raise TypeError(f"correction must be a name, or (name, {{parameter: value}}), but is {given!r}")
     for parameter, value in changed.items():
         if parameter not in parameters:
             there = ", ".join(parameters) or "none"

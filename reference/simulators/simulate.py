@@ -9,12 +9,16 @@ from functools import partial
 import numpy as np
 
 from .. import inputs
+from ..integrators import INTEGRATORS
 from ..layout import Bodies
+from ..rotation import rotation_angle
 from ..trajectory import BodyState, Trajectory
 from .model import model
 from .settings import SIMULATORS, Settings
 
 JOINED = 1e-9  # of a mechanism's size: a gap in the joints after a step that is told
+SAME = 1e-9  # m, or of a coordinate; rad: so far apart, a static body counts as where it was
+CONTACT_MOST_DRAG = 2.0  # h · drag/mass with contact, as ``Integrator.most_drag``: forces of a step's start
 
 
 def simulate(scene, duration, dt, *, start=None, **settings):
@@ -25,8 +29,9 @@ def simulate(scene, duration, dt, *, start=None, **settings):
     ``sim.state`` or ``run.state()``; the clock that forces see goes on from its time, while the result's
     ``time`` counts from 0 again. None: as the scene says, at t = 0.
 
-    Raises ValueError or TypeError for bad input, naming the argument; Unsupported where something can't be
-    expressed. A run whose state stops being finite returns what it has, with status "diverged" and the time.
+    Raises ValueError or TypeError for bad input, naming the argument (a dt so long that drag would speed a
+    body up is bad too); Unsupported where something can't be expressed. A run whose state stops being finite
+    returns what it has, with status "diverged" and the time.
     """
     return Simulation(scene, dt, start=start, **settings).run(duration)
 
@@ -48,6 +53,7 @@ class Simulation:
         )
         self.settings = chosen.told(self.dt, scene.user_forces)
         self.bodies = Bodies(scene)
+        _check_drag(self.bodies, self.dt, self.dt / self.substeps, chosen)
         self.status, self.reason = "ok", ""
         self._family = SIMULATORS[chosen.simulator](scene, self.bodies, chosen)
         # the plain form of the loops would warn of what the status will tell; the compiled form can't
@@ -147,11 +153,48 @@ def count_steps(duration, dt):
 
 
 def _checked_start(start, bodies):
-    """The time of a ``BodyState``; ValueError or TypeError unless its arrays fit and are finite."""
+    """The time of a ``BodyState``; ValueError or TypeError unless its arrays fit and are finite, and what is
+    static is where the scene has it, at rest.
+    """
     if not isinstance(start, BodyState):
         raise TypeError(f"start must be a state, from sim.state or run.state(), but is {start!r}")
     for name in ("position", "orientation", "velocity", "angular_velocity"):
         inputs.array(f"start.{name}", getattr(start, name), getattr(bodies, name).shape)
     for q in start.orientation if bodies.dimension == 3 else ():
         inputs.unit_quaternion("start.orientation", q)
+    away = np.abs(start.position - bodies.position) > SAME * np.maximum(1.0, np.abs(bodies.position))
+    turned = _angles(bodies.orientation, start.orientation) > SAME
+    for i in (i for i, body in enumerate(bodies.declared) if body.static):
+        if away[i].any() or turned[i] or np.any(start.velocity[i]) or np.any(start.angular_velocity[i]):
+            raise ValueError(
+                f"start must leave body {i}, which is static, where the scene has it, at rest: position "
+                f"{bodies.position[i].tolist()}, orientation {bodies.orientation[i].tolist()}, but has it at "
+                f"{start.position[i].tolist()}, {start.orientation[i].tolist()}, with velocity "
+                f"{start.velocity[i].tolist()}, {start.angular_velocity[i].tolist()}"
+            )
     return inputs.number("start.time", start.time)
+
+
+def _angles(p, q):
+    """By how much the attitudes p and q differ, rad, 0 … π: (n,)."""
+    return rotation_angle(p, q) if p.ndim == 2 else np.abs((q - p + np.pi) % (2 * np.pi) - np.pi)
+
+
+def _check_drag(bodies, dt, h, settings):
+    """ValueError where steps of h would make drag speed up what it should slow down.
+
+    All methods here are explicit in it: each step multiplies v by a polynomial in h · drag/mass, which is
+    greater than 1 beyond a bound. What joints hold is left out: others' masses can keep it stable.
+    """
+    most = INTEGRATORS[settings.integrator].most_drag if settings.integrator else CONTACT_MOST_DRAG
+    held = {i for joint in bodies.joints for i in joint.ends}
+    system = bodies.system
+    for k, (linear, angular) in zip(system.drag_bodies, system.drag_law, strict=True):
+        i, rate = int(bodies.moving[k]), linear / system.mass[k]
+        if k < len(system.inertia):
+            rate = max(rate, angular / system.inertia[k].min())
+        if i not in held and h * rate > most * (1 + 1e-9):
+            raise ValueError(
+                f"dt must be at most {most / rate * dt / h:.6g} s for the drag of body {i}, but is "
+                f"{dt:g} s: in longer steps this method would let drag speed it up"
+            )

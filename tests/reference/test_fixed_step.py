@@ -214,6 +214,8 @@ def test_bad_corrections_are_named():
         (("soft", {"frequency": 0}), ValueError, "correction's frequency must be"),
         (("nonlinear", {"sweeps": 1.5}), TypeError, "correction's sweeps must be"),
         (("soft", 3), TypeError, "correction must be a name, or"),
+        (["soft", {}], TypeError, r"correction must be a name, or .*, but is \['soft', {}\]"),
+        ((["soft"], {}), TypeError, "correction must be a name, or"),
     ):
         with pytest.raises(error, match=words):
             simulate(scene, 0.1, 0.1, correction=given)

@@ -284,6 +284,9 @@ def test_trajectory_is_the_same_class_with_settings(engine):
     assert theirs.settings["version"] == ENGINES[engine].version
     assert theirs.settings["iterations"] == 7
     assert len(theirs.contacts[0].depth) == 0
+    blind = simulate_in(case.scene, engine, 0.01, 0.01, record_contacts=False)
+    with pytest.raises(ValueError, match="run with record_contacts=True"):
+        blind.penetration()
 
 
 @pytest.mark.parametrize("engine", [pytest.param(name, marks=needs(name)) for name in ENGINES])

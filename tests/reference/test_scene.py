@@ -1,5 +1,8 @@
 """What a user may declare, and the error for each thing that may not be."""
 
+from dataclasses import replace
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -54,6 +57,14 @@ def falling():
         ),
         (lambda: falling().add(Sphere(1), friction=-1), "friction must be a finite number of at least 0"),
         (lambda: falling().add(Sphere(1), restitution=1.5), "restitution must be a number from 0 to 1"),
+        (lambda: falling().add(Sphere(1), mass="1"), "mass must be a number, but is '1'"),
+        (lambda: falling().add(Sphere(1), mass=np.array("1")), "mass must be a number, but is array('1'"),
+        (lambda: falling().add(Sphere(1), friction=True), "friction must be a number, but is True"),
+        (lambda: falling().add(Sphere(1), friction=np.True_), "friction must be a number, but is"),
+        (lambda: falling().add(Sphere(1), position="123"), "position must be an array of numbers"),
+        (lambda: falling().add(Sphere(1), position=["0", "0", "1"]), "position must be an array of numbers"),
+        (lambda: falling().add(Sphere(1), static="no"), "static must be True or False, but is 'no'"),
+        (lambda: falling().pair(0, 1, collide=0), "collide must be True or False, but is 0"),
         (lambda: falling().pair(0, 2), "j must be the number of a body, 0 … 1, but is 2"),
         (lambda: falling().pair(1, 1), "j must be another body than i"),
         (lambda: falling().spring(0, 1, -3), "stiffness must be a finite number of at least 0, but is -3"),
@@ -89,6 +100,16 @@ def falling():
         ),
         (lambda: simulate(falling(), 1, 0.1, substeps=0), "substeps must be a whole number of at least 1"),
         (lambda: simulate(falling(), 1, 0.1, record_every=1.5), "record_every must be a whole number"),
+        (
+            lambda: simulate(falling(), 1, 0.1, warm_start="yes"),
+            "warm_start must be True or False, but is 'yes'",
+        ),
+        (
+            lambda: simulate(falling(), 1, 0.1, record_contacts=3),
+            "record_contacts must be True or False, but is 3",
+        ),
+        (lambda: simulate(falling(), 1, 0.1, tolerance=True), "tolerance must be a number, but is True"),
+        (lambda: simulate(falling(), 1, 0.1, integrator=["rk4"]), "integrator must be one of"),
         (lambda: simulate(falling(), 1, 0.1, start=3), "start must be a state"),
         (lambda: simulate(3, 1, 0.1), "scene must be a Scene, but is 3"),
         (
@@ -110,6 +131,43 @@ def test_start_must_fit():
     start.position[0, 0] = NAN
     with pytest.raises(ValueError, match=r"start\.position must hold finite numbers"):
         simulate(scene, 1, 0.1, start=start)
+
+
+def test_numbers_of_other_kinds_are_numbers():
+    for two in (2, np.float32(2), np.int64(2), np.array(2), Fraction(4, 2)):
+        scene = Scene()
+        scene.add(Sphere(two), mass=two, position=(0, two, 0), static=np.False_)
+        assert scene.bodies[0].mass == scene.bodies[0].shape.radius == scene.bodies[0].position[1] == 2
+
+
+def with_a_static_body(d):
+    """A ball that falls beside a box that is fixed, turned, and far from the origin."""
+    scene = Scene(gravity=(0, -10) if d == 2 else (0, 0, -10))
+    fixed = Box((0.3, 0.2, 0.1)[:d])
+    turned = 2.5 if d == 2 else (0.5, 0.5, -0.5, 0.5)
+    scene.add(Sphere(0.5) if d == 3 else Disc(0.5), position=(0, 1, 2)[:d])
+    scene.add(fixed, static=True, position=(30.1, -7.3, 1.7)[:d], orientation=turned)
+    return scene
+
+
+@pytest.mark.parametrize("d", [2, 3])
+def test_start_must_leave_static_bodies_where_they_are(d):
+    """Elsewhere, turned, or moving is refused; the same attitude told otherwise, and rounding, are not."""
+    scene = with_a_static_body(d)
+    start = simulate(scene, 0.1, 0.1).state()
+    q = start.orientation
+    elsewhere, turned, moving, same = start.position.copy(), q.copy(), start.velocity.copy(), q.copy()
+    elsewhere[1, 0] += 1e-6
+    moving[1, 0] = 1
+    turned[1] = 2.4 if d == 2 else (1, 0, 0, 0)
+    same[1] = q[1] + 2 * np.pi if d == 2 else -q[1]
+    for wrong in ({"position": elsewhere}, {"orientation": turned}, {"velocity": moving}):
+        with pytest.raises(ValueError, match="start must leave body 1, which is static, where the scene has"):
+            simulate(scene, 0.1, 0.1, start=replace(start, **wrong))
+    rounded = start.position * (1 + 1e-15)
+    run = simulate(scene, 0.1, 0.1, start=replace(start, position=rounded, orientation=same))
+    assert run.state().time == pytest.approx(0.2)
+    simulate(scene, 0.1, 0.1, start=run.state())
 
 
 def test_what_cannot_touch_needs_no_contact():

@@ -1,10 +1,13 @@
 """Runs as a whole: what a trajectory holds, energy, momenta, status, going on, own forces, model."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 
 import independent
-from reference import Disc, Plane, Point, Polygon, Scene, Simulation, Sphere, model, simulate
+from reference import Disc, Fixed, Plane, Point, Polygon, Scene, Simulation, Sphere, model, simulate
+from reference.integrators import INTEGRATORS
 
 
 def test_shapes_and_times_of_a_trajectory():
@@ -182,6 +185,38 @@ def test_model_builds_only_what_the_scene_needs():
     assert model(scene).integrator == "rk4" and "rk4" in str(model(scene)) and "springs" in str(model(scene))
     assert sum(t.operations for t in model(scene).terms) > before / 5
     assert simulate(scene, 1, 0.1).settings["integrator"] == "rk4"
+
+
+@pytest.mark.parametrize("integrator", [*INTEGRATORS, None])
+@pytest.mark.parametrize("angular", [False, True])
+def test_drag_that_would_speed_up_is_refused(integrator, angular, monkeypatch):
+    """Up to the longest dt that is named a velocity falls, and just beyond it would grow."""
+    scene = Scene(gravity=(0, 0, 0))
+    ball = scene.add(Sphere(1), mass=2.5, position=(0, 0, 9), velocity=(1, 2, 3), angular_velocity=(1, 2, 3))
+    scene.drag(ball, *((1.0, 3.0) if angular else (5.0, 0.5)))  # rates in 1/s: .4 and 3, or 2 and .5
+    if not integrator:  # with contact, though nothing comes near
+        scene.add(Plane((0, 0, 1)))
+    most = (INTEGRATORS[integrator].most_drag if integrator else 2.0) / (3.0 if angular else 2.0)
+    settings = {"integrator": integrator, "substeps": 2}
+    run = simulate(scene, 80 * 0.999 * most, 2 * 0.999 * most, **settings)
+    speed = np.linalg.norm(run.angular_velocity if angular else run.velocity, axis=-1)[:, ball]
+    assert np.all(np.diff(speed) < 0)
+    with pytest.raises(ValueError, match=rf"dt must be at most {2 * most:.6g} s for the drag of body {ball}"):
+        simulate(scene, 80 * 1.001 * most, 2 * 1.001 * most, **settings)
+    monkeypatch.setattr(import_module("reference.simulators.simulate"), "_check_drag", lambda *_: None)
+    run = simulate(scene, 80 * 1.001 * most, 2 * 1.001 * most, **settings)
+    speed = np.linalg.norm(run.angular_velocity if angular else run.velocity, axis=-1)[:, ball]
+    assert np.all(np.diff(speed) > 0)
+
+
+def test_drag_on_what_joints_hold_is_not_judged_by_one_body():
+    """A light bob on a heavy one: alone its drag would speed it up, together it slows them down."""
+    scene = Scene(gravity=(0, 0))
+    heavy, light = scene.add(Disc(1), mass=10, velocity=(1, 0)), scene.add(Disc(1), mass=0.1, velocity=(1, 0))
+    scene.join(Fixed(heavy, light))
+    scene.drag(light, 5)  # 50/s of its own mass, .5/s of both
+    run = simulate(scene, 4, 0.1)
+    assert run.velocity[-1, 1, 0] == pytest.approx(np.exp(-4 * 5 / 10.1), rel=1e-5)
 
 
 def test_nothing_moves():

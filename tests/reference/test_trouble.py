@@ -61,6 +61,9 @@ def test_what_has_no_room_stays_finite_and_says_how_deep(d):
     assert finite(run) and np.abs(run.velocity).max() < 1e-6
     assert run.penetration()[-1] == pytest.approx(0.1, abs=0.06)
     assert run.status != "ok" or run.residual.max() < 1e-6 or "residual" in run.reason
+    blind = simulate(scene, FRAME, FRAME, record_contacts=False)
+    with pytest.raises(ValueError, match="run with record_contacts=True"):
+        blind.penetration()
 
 
 @DIMENSIONS
