@@ -18,7 +18,7 @@ from .settings import SIMULATORS, Settings
 
 JOINED = 1e-9  # of a mechanism's size: a gap in the joints after a step that is told
 SAME = 1e-9  # m, or of a coordinate; rad: so far apart, a static body counts as where it was
-CONTACT_MOST_DRAG = 2.0  # h · drag/mass with contact, as ``Integrator.most_drag``: forces of a step's start
+CONTACT_MOST_DRAG = 2.0  # h · drag/mass with contact, as ``Integrator.most_drag``
 
 
 def simulate(scene, duration, dt, *, start=None, **settings):
