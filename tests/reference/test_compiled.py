@@ -211,13 +211,13 @@ def test_bind_takes_functions_that_call_numpy_and_still_sees_edits(tmp_path, mon
 
 @needs_numba
 def test_what_was_bound_before_counts_among_the_sources():
-    """Else an edit of cone_newton would not reach the compiled steps, to which flight is bound."""
+    """Else an edit of cone_newton would not reach the compiled steps, to which they are bound."""
     from reference.lcp.contact_sweeps import sweep_contacts
-    from reference.simulators.flight import flight
+    from reference.simulators.flight import push
     from reference.simulators.lifting import raise_apart
     from reference.simulators.solving import newton_in_cones
 
-    bound = compiled.bind(sweep_contacts, compiled.bind(raise_apart, compiled.bind(flight, newton_in_cones)))
+    bound = compiled.bind(sweep_contacts, compiled.bind(raise_apart, compiled.bind(push, newton_in_cones)))
     assert set(bound.made_from) == {
         "reference.lcp.contact_sweeps",
         "reference.simulators.lifting",
