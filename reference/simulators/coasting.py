@@ -8,31 +8,56 @@ Slides S9, S12; lectures/05_contact.md.
 
 import numpy as np
 
-from ..compiled import bind, compiled, compiled_apart, inner, lean_apart
+from ..compiled import compiled, inner
 from ..integrators import copy
 from .bouncing import look_ahead
-from .lifting import DEEP, MOST_LIFTS, deepest, energies, slow_down, told_depth
-from .middle import reach
+from .lifting import DEEP, MOST_LIFTS, deepest, slow_down, told_depth
+from .middle import matched, moves, reach
+from .moving import move
+from .paying import kinetic
 from .smooth import all_finite
 
 
 @compiled
-def coast(fill_free, settle, half_way, push, system, state, work, speeds, middle, near, contacts, held,
+def coast(fill_free, detect, raise_apart, push, system, state, work, speeds, middle, near, contacts, held,
           pushed, t, h, steps, limits, worst, lifted, timeless):  # fmt: skip
     """Up to so many steps of h s from the time t; pushed: keys (c,) and forces (c, d) of the contacts before.
 
     Returns how many are done; whether the last left the state as it was; ``pushed`` now; and the contacts,
     half way, and the impulses of the last step. It ends before a step that is none of the ordinary, or whose
-    state would not be finite.
+    state would not be finite. lifted (2,): the energy that lifting added, J, is added to the first; the
+    second is the deepest that stays in each other.
     """
-    before, impulse, there = state.y.copy(), pushed[1], contacts
-    room = settle(system, state, speeds, near, contacts, held, t, h, limits, worst, lifted)
-    for done in range(steps):
-        if not (room and quiet(contacts, speeds, h, limits)):
+    solids, grid, pairs, spare, raw = near.collider
+    before, start, impulse, there = state.y.copy(), state.x.copy(), pushed[1], contacts
+    label, had, way = np.arange(len(start)), np.zeros(len(start)), np.zeros_like(speeds.before)
+    for done in range(steps + 1):
+        now, lifts = t + done * h, 0
+        while True:  # find the contacts of the step from now on, and lift apart what overlaps
+            fill_free(system, now, h, state, speeds)
+            margin = reach(speeds, h, limits.closed)
+            found = detect(solids, grid, pairs, spare, raw, contacts, state, margin, h)
+            room = found[0] <= len(pairs) and found[1] <= len(contacts.gap)
+            if not room or lifts == MOST_LIFTS or deepest(contacts) <= limits.closed * (1 if lifts else DEEP):
+                break
+            if lifts == 0:
+                begin_lifts(state, speeds, start, label, had, way)
+            raise_apart(state, contacts, held, speeds, label, way, limits, worst)
+            lifts += 1
+        if lifts > 0:
+            lifted[1] = max(lifted[1], told_depth(contacts, limits.closed))
+            lifted[0] += slow_down(system, state, start, had, way, label, speeds)
+            fill_free(system, now, h, state, speeds)
+        if done == steps or not (room and quiet(contacts, speeds, h, limits)):
             return done, False, pushed, there, impulse
         copy(state.y, before)
-        half = half_way(system, state, work, speeds, near, contacts, h, limits)
-        fill_free(system, t + (done + 0.5) * h, h, state, middle)
+        half = contacts
+        move(system, speeds.before, speeds.before, 0.5 * h, state, work)
+        if moves(contacts, speeds.before):
+            found = detect(solids, grid, pairs, spare, raw, near.room, state, margin, h)
+            if found[0] <= len(pairs) and found[1] <= len(near.room.gap):
+                half = matched(contacts, near.room, limits.bodies)
+        fill_free(system, now + 0.5 * h, h, state, middle)
         key, made, _ = push(
             system, state, work, speeds, middle, contacts, half, held, pushed[0], pushed[1], h, limits, worst
         )
@@ -44,53 +69,18 @@ def coast(fill_free, settle, half_way, push, system, state, work, speeds, middle
             pushed = key, over(impulse, h)
         if timeless and same(before, state.y):
             return done + 1, True, pushed, there, impulse
-        now = t + (done + 1) * h
-        room = settle(system, state, speeds, near, contacts, held, now, h, limits, worst, lifted)
     return steps, False, pushed, there, impulse
 
 
-@compiled_apart
-def settle(look, lift_all, system, state, speeds, near, contacts, held, t, h, limits, worst, lifted):
-    """Find the contacts of the step from t on, and lift apart what overlaps. Returns whether there was room.
-
-    lifted (2,): the energy that lifting added, J, is added to the first; the second is the deepest that
-    stays in each other.
-    """
-    room = look(system, state, speeds, near, contacts, t, h, limits)
-    if not room or deepest(contacts) <= DEEP * limits.closed:
-        return room
-    return lift_all(system, state, speeds, near, contacts, held, t, h, limits, worst, lifted)
-
-
-def make_settle(fill_free, detect, raise_apart):
-    """``settle`` with these functions."""
-    seen = bind(look, fill_free, detect)
-    return bind(settle, seen, bind(lift_all, seen, raise_apart))
-
-
-@lean_apart
-def look(fill_free, detect, system, state, speeds, near, contacts, t, h, limits):
-    """Fill in the speeds, and find the contacts of the step from t on. Returns whether there was room."""
-    solids, grid, pairs, spare, raw = near.collider
-    fill_free(system, t, h, state, speeds)
-    margin = reach(speeds, h, limits.closed)
-    found = detect(solids, grid, pairs, spare, raw, contacts, state, margin, h)
-    return found[0] <= len(pairs) and found[1] <= len(contacts.gap)
-
-
-@compiled_apart
-def lift_all(look, raise_apart, system, state, speeds, near, contacts, held, t, h, limits, worst, lifted):
-    """Lift apart what overlaps, again and again; as ``settle``."""
-    start, label, had = state.x.copy(), np.arange(len(state.x)), energies(speeds.M, speeds.before)
-    way, room = np.zeros_like(speeds.before), True
-    for _ in range(MOST_LIFTS):
-        raise_apart(state, contacts, held, speeds, label, way, limits, worst)
-        room = look(system, state, speeds, near, contacts, t, h, limits)
-        if not room or deepest(contacts) <= limits.closed:
-            break
-    lifted[1] = max(lifted[1], told_depth(contacts, limits.closed))
-    lifted[0] += slow_down(system, state, start, had, way, label, speeds)
-    return room and look(system, state, speeds, near, contacts, t, h, limits)
+@inner
+def begin_lifts(state, speeds, start, label, had, way):
+    """Where the bodies are and how much energy of motion they have, before any are lifted."""
+    for i in range(len(start)):
+        label[i], had[i] = i, kinetic(speeds.M, speeds.before, i)
+        for a in range(start.shape[1]):
+            start[i, a] = state.x[i, a]
+        for a in range(way.shape[1]):
+            way[i, a] = 0.0
 
 
 @compiled(door=False)

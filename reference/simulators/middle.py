@@ -22,7 +22,7 @@ import numpy as np
 
 from ..collision import ContactArrays
 from ..collision.find import make_contacts
-from ..compiled import bind, compiled, compiled_apart, inner, lean
+from ..compiled import compiled, compiled_apart, inner, lean
 from ..contacts import along, keys, label_islands, parting_speed, relative_velocity
 from ..lcp.augmented import dot
 from .moving import move
@@ -43,35 +43,16 @@ def make_near(collider, d):
     return Near(collider.arrays, collider.spare) if collider else Near((), make_contacts(0, d))
 
 
-def make_half_way(collider):
-    """``half_way`` with this Collider's search; None: nothing can touch."""
-    return bind(half_way, bind(search, collider.detect) if collider else no_search)
-
-
-@compiled_apart
-def half_way(search, system, state, work, speeds, near, contacts, h, limits):
-    """Fly for half of h with the velocities that there are. Returns these contacts as they are half way.
-
-    search(near, state, margin, h) finds the contacts, and returns whether there was room for all.
-    """
+def half_way(collider, system, state, work, speeds, near, contacts, h, limits):
+    """Fly for half of h with the velocities that there are. Returns these contacts as they are half way."""
     move(system, speeds.before, speeds.before, 0.5 * h, state, work)
-    if not moves(contacts, speeds.before) or not search(near, state, reach(speeds, h, limits.closed), h):
+    if not collider or not moves(contacts, speeds.before):
+        return contacts
+    margin = reach(speeds, h, limits.closed)
+    pairs, found = collider.detect(*near.collider, near.room, state, margin, h)
+    if pairs > len(near.collider[2]) or found > len(near.room.gap):  # no room: that of the start will do
         return contacts
     return matched(contacts, near.room, limits.bodies)
-
-
-@inner
-def search(detect, near, state, margin, h):
-    """Find the contacts into near.room; returns whether there was room for all."""
-    solids, grid, pairs, spare, raw = near.collider
-    found = detect(solids, grid, pairs, spare, raw, near.room, state, margin, h)
-    return found[0] <= len(pairs) and found[1] <= len(near.room.gap)
-
-
-@inner
-def no_search(near, state, margin, h):
-    """Where nothing can touch."""
-    return False
 
 
 @lean
@@ -84,7 +65,7 @@ def reach(speeds, h, closed):
     return 2 * h * hastening + 100 * closed
 
 
-@inner
+@lean
 def moves(contacts, u):
     """Whether anything moves that has a contact."""
     for q in range(contacts.count[0]):
@@ -97,7 +78,7 @@ def moves(contacts, u):
     return False
 
 
-@compiled(door=False)
+@compiled
 def matched(contacts, now, bodies):
     """The same contacts (m,) with the points, frames and arms that they have now, where they are found."""
     m = contacts.count[0]

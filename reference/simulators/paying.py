@@ -15,11 +15,19 @@ from ..compiled import compiled, inner
 @compiled
 def energies(M, u):
     """½ uᵀ M u of each body, J (n,)."""
-    energy = np.zeros(len(u))
+    energy = np.empty(len(u))
     for i in range(len(u)):
-        for a in range(u.shape[1]):
-            for b in range(u.shape[1]):
-                energy[i] += 0.5 * u[i, a] * M[i, a, b] * u[i, b]
+        energy[i] = kinetic(M, u, i)
+    return energy
+
+
+@inner
+def kinetic(M, u, i):
+    """½ uᵀ M u of body i, J."""
+    energy = 0.0
+    for a in range(u.shape[1]):
+        for b in range(u.shape[1]):
+            energy += 0.5 * u[i, a] * M[i, a, b] * u[i, b]
     return energy
 
 

@@ -18,13 +18,13 @@ from ..contacts import contact_rows, part
 from ..forces import external_force, with_user_forces
 from ..trajectory import BodyState
 from .bouncing import MOST_IMPACTS, hop, strike
-from .coasting import coast, make_settle
+from .coasting import coast
 from .flight import Limits, Turning, push
 from .free import fill_free, make_speeds
 from .held import Held, join
 from .impacts import IMPACTS
 from .lifting import lift, raise_apart
-from .middle import make_half_way, make_near, reach
+from .middle import make_near, reach
 from .smooth import all_finite
 from .solving import StepSolver, Unsolvable, newton_in_cones
 from .touched import Touched
@@ -67,13 +67,11 @@ class VelocityLCP:
         self.limits = Limits(*self.solver.limits, self.closed, len(bodies.mass), self.warm)
         compiled_whole = self.solver.name == "cone_newton"
         solve = newton_in_cones if compiled_whole else self.solve_in_flight
-        self.half_way, self.push = make_half_way(self.collider), bind(push, solve)
-        self.raise_apart = bind(raise_apart, solve)
+        self.push, self.raise_apart = bind(push, solve), bind(raise_apart, solve)
         self.coast = None  # what takes ordinary steps by itself
         simple = not len(self.held) and not scene.user_forces
         if self.coasts and compiled_whole and self.collider and simple:
-            settle = make_settle(self.fill_free, self.collider.detect, self.raise_apart)
-            self.coast = bind(coast, self.fill_free, settle, self.half_way, self.push)
+            self.coast = bind(coast, self.fill_free, self.collider.detect, self.raise_apart, self.push)
         self.begin()
 
     def advance(self, origin, first, h, steps, every=1, record=None, solves=None):
