@@ -120,12 +120,14 @@ def lean_apart(function):
     return _compile(function, _nrt=False, forceinline=False) if COMPILED else function
 
 
-def compiled_apart(function):
+def compiled_apart(function=None, *, door=True):
     """As ``compiled``, but called, not inlined: for long loops over plain arrays, which several others call.
 
     It keeps the callers' compiling short, and costs some 10 ns an array in each call.
     """
-    return _compile(function, forceinline=False) if COMPILED else function
+    if function is None:
+        return functools.partial(compiled_apart, door=door)
+    return _compile(function, forceinline=False, no_cpython_wrapper=not door) if COMPILED else function
 
 
 def plain(function):

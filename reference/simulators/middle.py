@@ -97,7 +97,7 @@ def matched(contacts, now, bodies):
     return half
 
 
-@compiled_apart
+@compiled_apart(door=False)
 def add_bias(rows, contacts, half, start, middle, gap, h, closed):
     """To c of the contacts' rows, what w has changed by until half way; to gap (m,), what its error may be.
 

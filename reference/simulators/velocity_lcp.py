@@ -24,7 +24,7 @@ from .free import fill_free, make_speeds
 from .held import Held, join
 from .impacts import IMPACTS
 from .lifting import lift, raise_apart
-from .middle import make_near, reach
+from .middle import half_way, make_near, reach
 from .smooth import all_finite
 from .solving import StepSolver, Unsolvable, newton_in_cones
 from .touched import Touched
@@ -180,7 +180,9 @@ class VelocityLCP:
         self.held.fill(self.state)
         start = self.held.from_start(h, self.before)
         near = make_near(self.collider, self.d)
-        half = self.half_way(self.system, self.state, self.work, self.speeds, near, contacts, h, self.limits)
+        half = half_way(
+            self.collider, self.system, self.state, self.work, self.speeds, near, contacts, h, self.limits
+        )
         self.fill_free(self.system, self.now + 0.5 * h, h, self.state, self.middle)
         held = self.held.half_way(start, self.state, self.middle.before)
         key, impulse, λ = self.push(
