@@ -30,8 +30,14 @@ def keys(contacts, n):
     """
     key = np.empty(contacts.count[0], np.int64)
     for q in range(len(key)):
-        key[q] = (contacts.bodies[q, 0] * n + contacts.bodies[q, 1]) * 2**32 + contacts.id[q]
+        key[q] = key_of(contacts, q, n)
     return key
+
+
+@lean
+def key_of(contacts, q, n):
+    """The key of contact q."""
+    return (contacts.bodies[q, 0] * n + contacts.bodies[q, 1]) * 2**32 + contacts.id[q]
 
 
 @compiled

@@ -42,7 +42,7 @@ def _choose_two(n):
 class Collider:
     """What ``find_contacts`` works with; made by ``make_collider``.
 
-    solids: ``Solids``; contacts: ``ContactArrays``, whose first ``count`` rows count; spare: as much room;
+    solids: ``Solids``; contacts: ``ContactArrays``, whose first ``count`` rows count; spare: two more;
     detect: the compiled kernel, called as detect(*arrays, contacts, state, margin, h) (see ``find.detect``);
     arrays: the tuple (solids, grid, pairs, spare, raw). ``make_room`` replaces all these by larger ones.
     """
@@ -53,7 +53,7 @@ class Collider:
         s = len(self.solids.kind)
         self.detect = detector(self.dimension)
         self._grid, self._raw = make_grid(s, self.dimension), make_raw(self.dimension)
-        self.arrays, self.contacts, self.spare = (), None, None
+        self.arrays, self.contacts, self.spare = (), None, []
         self.make_room(_ROOM * s, _ROOM * s)
 
     @property
@@ -71,7 +71,7 @@ class Collider:
             self._raw,
         )
         size = _doubled(len(self.contacts.gap) if self.contacts else 1, contacts)
-        self.contacts, self.spare = (make_contacts(size, self.dimension) for _ in range(2))
+        self.contacts, *self.spare = (make_contacts(size, self.dimension) for _ in range(3))
 
 
 def _doubled(size, needed):

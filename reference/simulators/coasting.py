@@ -12,7 +12,7 @@ from ..compiled import compiled, inner
 from ..integrators import copy
 from .bouncing import look_ahead
 from .lifting import DEEP, MOST_LIFTS, deepest, slow_down, told_depth
-from .middle import matched, moves, reach
+from .middle import match, moves, reach
 from .moving import move
 from .paying import kinetic
 from .smooth import all_finite
@@ -56,7 +56,8 @@ def coast(fill_free, detect, raise_apart, push, system, state, work, speeds, mid
         if moves(contacts, speeds.before):
             found = detect(solids, grid, pairs, spare, raw, near.room, state, margin, h)
             if found[0] <= len(pairs) and found[1] <= len(near.room.gap):
-                half = matched(contacts, near.room, limits.bodies)
+                match(contacts, near.room, near.half, limits.bodies)
+                half = near.half
         fill_free(system, now + 0.5 * h, h, state, middle)
         key, made, _ = push(
             system, state, work, speeds, middle, contacts, half, held, pushed[0], pushed[1], h, limits, worst

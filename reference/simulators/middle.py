@@ -22,8 +22,8 @@ import numpy as np
 
 from ..collision import ContactArrays
 from ..collision.find import make_contacts
-from ..compiled import compiled, compiled_apart, inner, lean
-from ..contacts import along, keys, label_islands, parting_speed, relative_velocity
+from ..compiled import compiled_apart, inner, lean, lean_apart
+from ..contacts import along, key_of, label_islands, part, parting_speed, relative_velocity
 from ..lcp.augmented import dot
 from .moving import move
 
@@ -36,11 +36,14 @@ class Near(NamedTuple):
 
     collider: tuple  # the arrays that ``collision.detect`` takes
     room: ContactArrays
+    half: ContactArrays  # those of the start, as they are half way
 
 
 def make_near(collider, d):
     """``Near`` for a Collider; None: nothing can touch. d dimensions."""
-    return Near(collider.arrays, collider.spare) if collider else Near((), make_contacts(0, d))
+    if not collider:
+        return Near((), make_contacts(0, d), make_contacts(0, d))
+    return Near(collider.arrays, *collider.spare)
 
 
 def half_way(collider, system, state, work, speeds, near, contacts, h, limits):
@@ -52,7 +55,8 @@ def half_way(collider, system, state, work, speeds, near, contacts, h, limits):
     pairs, found = collider.detect(*near.collider, near.room, state, margin, h)
     if pairs > len(near.collider[2]) or found > len(near.room.gap):  # no room: that of the start will do
         return contacts
-    return matched(contacts, near.room, limits.bodies)
+    match(contacts, near.room, near.half, limits.bodies)
+    return part(near.half, slice(0, contacts.count[0]))
 
 
 @lean
@@ -78,23 +82,39 @@ def moves(contacts, u):
     return False
 
 
-@compiled
-def matched(contacts, now, bodies):
-    """The same contacts (m,) with the points, frames and arms that they have now, where they are found."""
-    m = contacts.count[0]
-    half = ContactArrays(
-        contacts.count.copy(), contacts.bodies[:m].copy(), contacts.slot[:m].copy(), contacts.id[:m].copy(),
-        contacts.point[:m].copy(), contacts.frame[:m].copy(), contacts.gap[:m].copy(),
-        contacts.arm[:m].copy(), contacts.friction[:m].copy(), contacts.restitution[:m].copy(),
-    )  # fmt: skip
-    known, key, p = keys(now, bodies), keys(contacts, bodies), 0
-    for q in range(m):
-        while p < len(known) and known[p] < key[q]:
+@lean_apart
+def match(contacts, now, half, bodies):
+    """Into half: the same contacts (m,) with the points, frames and arms that they have now, where found."""
+    p, half.count[0] = 0, contacts.count[0]
+    for q in range(contacts.count[0]):
+        key = key_of(contacts, q, bodies)
+        while p < now.count[0] and key_of(now, p, bodies) < key:
             p += 1
-        found = p < len(known) and known[p] == key[q]
+        copy_contact(contacts, q, half, q)
+        found = p < now.count[0] and key_of(now, p, bodies) == key
         if found and dot(contacts.frame[q, 0], now.frame[p, 0]) > SAME:
-            half.point[q], half.frame[q], half.arm[q] = now.point[p], now.frame[p], now.arm[p]
-    return half
+            copy_place(now, p, half, q)
+
+
+@inner
+def copy_contact(contacts, q, to, row):
+    """All of one contact."""
+    to.id[row], to.gap[row] = contacts.id[q], contacts.gap[q]
+    to.friction[row], to.restitution[row] = contacts.friction[q], contacts.restitution[q]
+    for side in range(2):
+        to.bodies[row, side], to.slot[row, side] = contacts.bodies[q, side], contacts.slot[q, side]
+    copy_place(contacts, q, to, row)
+
+
+@inner
+def copy_place(contacts, q, to, row):
+    """Where a contact is: its point, frame and arms."""
+    for a in range(contacts.point.shape[1]):
+        to.point[row, a] = contacts.point[q, a]
+        for b in range(contacts.point.shape[1]):
+            to.frame[row, a, b] = contacts.frame[q, a, b]
+        for side in range(2):
+            to.arm[row, side, a] = contacts.arm[q, side, a]
 
 
 @compiled_apart(door=False)
