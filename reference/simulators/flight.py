@@ -75,7 +75,7 @@ def push(solve, system, state, work, speeds, middle, contacts, half, held, known
     return key, spread(rows, λ, len(key), state.x.shape[1]), λ
 
 
-@compiled_apart(door=False)
+@compiled_apart
 def prepare(speeds, middle, contacts, half, held, known, pushed, h, limits):
     """The problem of a flight: its rows; their gaps at the start; the contacts' keys; and the λ that the
     forces before would make in h.
@@ -91,7 +91,7 @@ def prepare(speeds, middle, contacts, half, held, known, pushed, h, limits):
     return rows, gap, key, λ
 
 
-@compiled_apart(door=False)
+@compiled_apart
 def finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits):
     """Rest, and the new positions and velocities, once u⁺ = ``after`` is known."""
     label, room = label_islands(rows.bodies, len(after)), np.zeros((8, len(after)))
