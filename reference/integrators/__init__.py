@@ -66,22 +66,10 @@ INTEGRATORS = {
     "rk4": Integrator(rk4, order=4, evaluations=4, most_drag=2.785293563),
     "splitting": Integrator(splitting, order=2, symmetric=True, conserves=("momentum",)),
     "splitting4": Integrator(
-        compose4,
-        order=4,
-        symmetric=True,
-        conserves=("momentum",),
-        evaluations=5,
-        base=splitting,
-        most_drag=3.650135075,
+        compose4, 4, symmetric=True, conserves=("momentum",), evaluations=5, base=splitting, most_drag=3.6501
     ),
     "splitting6": Integrator(
-        compose6,
-        order=6,
-        symmetric=True,
-        conserves=("momentum",),
-        evaluations=9,
-        base=splitting,
-        most_drag=2.646678088,
+        compose6, 6, symmetric=True, conserves=("momentum",), evaluations=9, base=splitting, most_drag=2.6466
     ),
     "implicit_midpoint": Integrator(
         implicit_midpoint, order=2, symmetric=True, conserves=("momentum", "energy")

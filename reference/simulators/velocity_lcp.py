@@ -1,9 +1,9 @@
 """The velocity-based simulator, the widely used one: contact at the level of velocities and impulses (S12).
 
-A step of Δt, as S9 has it: find the contacts; solve w = A λ + b for the impulses λ, which keep bodies
-from going into each other; with them the new velocities; with these the new positions. What went into
-each other all the same is lifted apart first (S13), and where something rebounds the step stops at each
-impact.
+A step of Δt, as S9 has it, but made in its middle: find the contacts; move half way; there solve
+w = A λ + b for the impulses λ, which keep bodies from going into each other; with them the new velocities;
+with these the other half. What went into each other all the same is lifted apart at the end (S13), and where
+something rebounds the step stops at each impact.
 
 Slides S9–S12; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J. Numer. Methods Eng. 39 (1996)
 2673; Anitescu & Potra, Nonlinear Dynamics 14 (1997) 231.
