@@ -42,7 +42,7 @@ def coast(fill_free, detect, raise_apart, push, system, state, work, speeds, mid
                 break
             if lifts == 0:
                 begin_lifts(state, speeds, start, label, had, way)
-            raise_apart(state, contacts, held, speeds, label, way, limits, worst)
+            raise_apart(state, contacts, held, speeds, label, way, limits)
             lifts += 1
         if lifts > 0:
             lifted[1] = max(lifted[1], told_depth(contacts, limits.closed))

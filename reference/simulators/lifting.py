@@ -15,12 +15,15 @@ from ..collision import ContactArrays
 from ..compiled import compiled, compiled_apart
 from ..contacts import contact_rows, label_islands, root
 from ..correction import displace
+from .flight import Limits
 from .held import join
 from .moving import scatter_velocities
 from .paying import energies, pay
 
 DEEP = 10  # times the gap that counts as none
 MOST_LIFTS, MOST_CLOSINGS = 20, 200  # moves in one step; where light links bear much, joints need many
+BESIDE = 100  # times the depth: gaps that a move may close
+ENOUGH, LEAST, MOST = 1e-3, 1e-13, 1e-6  # of the depth: to this is each move computed, within limits
 TORN = 1e-6  # of the mechanism's size: an opening of joints that no move mends
 
 
@@ -34,7 +37,7 @@ def lift(sim, contacts, h):
     way = np.zeros_like(sim.before)
     for _ in range(MOST_CLOSINGS if len(sim.held) else MOST_LIFTS):
         held = sim.held.rows_with(*sim.held.to_lift())
-        sim.raise_apart(sim.state, contacts, held, sim.speeds, label, way, sim.limits, sim.worst)
+        sim.raise_apart(sim.state, contacts, held, sim.speeds, label, way, sim.limits)
         sim.fill(sim.now, h)
         contacts = sim.find(h)
         if depth(sim, contacts) <= sim.closed:
@@ -70,13 +73,14 @@ def deepest(contacts):
 
 
 @compiled_apart
-def raise_apart(solve, state, contacts, held, speeds, label, way, limits, worst):
+def raise_apart(solve, state, contacts, held, speeds, label, way, limits):
     """One move that brings all gaps, as they are to first order, to 0 at least; friction has no part in it.
 
     label (n,): the islands of the moves before, and with those of this one; way (n, k): their sum.
     """
     rows, δ, λ = upright_rows(contacts, held, speeds.before)
-    δ = solve(rows, speeds.M, δ, λ, limits, worst)
+    limits = Limits(how_well(rows), limits.iterations, limits.closed, limits.bodies, limits.warm)
+    δ = solve(rows, speeds.M, δ, λ, limits, np.zeros(2))
     join_islands(label, rows.bodies)
     displace_by(state, δ)
     for i in range(len(way)):
@@ -84,14 +88,30 @@ def raise_apart(solve, state, contacts, held, speeds, label, way, limits, worst)
             way[i, a] += δ[i, a]
 
 
+@compiled
+def how_well(rows):
+    """A tolerance for one move: a share of what is deepest, or farthest from closed, over the largest c."""
+    depth, largest = 0.0, 0.0
+    for r in range(len(rows.c)):
+        off = abs(rows.c[r])
+        largest = max(largest, off)
+        if rows.c[r] < 0 or rows.lower[r] < 0:
+            depth = max(depth, off)
+    return min(max(ENOUGH * depth / largest, LEAST), MOST) if largest > 0 else MOST
+
+
 @compiled_apart
 def upright_rows(contacts, held, u):
-    """The rows of the contacts' normals, and those held; and zeros for u (n, k) and λ."""
-    c, m = contacts, contacts.count[0]
+    """The rows of the normals of what is deep or near, and those held; and zeros for u (n, k) and λ."""
+    depth = deepest(contacts)
+    for r in range(len(held.c)):
+        depth = max(depth, abs(held.c[r]))
+    c, q = contacts, np.flatnonzero(contacts.gap[: contacts.count[0]] <= BESIDE * depth)
     frictionless = ContactArrays(
-        c.count, c.bodies, c.slot, c.id, c.point, c.frame, c.gap, c.arm, np.zeros(m), c.restitution
-    )
-    rows = join(contact_rows(frictionless, contacts.gap[:m], u.shape[1]), held)
+        np.full(1, len(q)), c.bodies[q], c.slot[q], c.id[q], c.point[q], c.frame[q], c.gap[q], c.arm[q],
+        np.zeros(len(q)), c.restitution[q],
+    )  # fmt: skip
+    rows = join(contact_rows(frictionless, frictionless.gap, u.shape[1]), held)
     return rows, np.zeros_like(u), np.zeros(len(rows.c))
 
 

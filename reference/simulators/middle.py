@@ -29,6 +29,7 @@ from .moving import move
 
 SAME = 0.9  # cosine of the angle between two normals of one contact, at least
 LEFT = 0.25  # of the bias: by so much its error may let a contact close
+TOUCHES = 100  # times the gap that counts as none: what is so near isn't brought nearer
 
 
 class Near(NamedTuple):
@@ -66,7 +67,7 @@ def reach(speeds, h, closed):
     for i in range(len(speeds.free)):
         for a in range(speeds.free.shape[1]):
             hastening = max(hastening, abs(speeds.free[i, a] - speeds.before[i, a]))
-    return 2 * h * hastening + 100 * closed
+    return 2 * h * hastening + TOUCHES * closed
 
 
 @lean

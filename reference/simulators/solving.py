@@ -16,10 +16,11 @@ import numpy as np
 from ..compiled import compiled
 from ..factored import Factored
 from ..lcp import LCP, SOLVERS, ConeProblem
-from ..lcp.cone_newton import ContactRows, cone_newton_kernel
+from ..lcp.cone_newton import NEAR, ContactRows, cone_newton_kernel
 from ..lcp.contact_sweeps import fill_moves
 from .impacts import rates
 
+LARGE = 1000  # contacts in one step: more are left to an error of 1e-3, where Newton's method fails at once
 USABLE = 1e-6  # a residual with which a run goes on, though the method didn't come to its end
 DEFAULT_SOLVERS = {"cone": "cone_newton", "box": "lemke", "pyramid": "lemke"}  # exact
 
@@ -36,8 +37,9 @@ class Unsolvable(Exception):
 def newton_in_cones(rows, M, free, λ, limits, worst):
     """``StepSolver`` by ``cone_newton``, for ``flight``; limits: its tolerance and iterations."""
     after, passes, error = cone_newton_kernel(
-        rows, M, free, np.zeros(len(rows.μ)), True, λ, limits.tolerance, limits.iterations, np.zeros(0)
-    )
+        rows, M, free, np.zeros(len(rows.μ)), True, λ, limits.tolerance, limits.iterations, np.zeros(0),
+        NEAR, LARGE,
+    )  # fmt: skip
     worst[0], worst[1] = max(worst[0], passes), max(worst[1], error)
     return after
 
@@ -60,7 +62,7 @@ class StepSolver:
         if self.name == "cone_newton":
             gives = np.zeros(len(rows.μ)) if softness is None else softness[rows.block[:-1]]
             after, passes, error = cone_newton_kernel(
-                rows, M, free, gives, True, λ, *self.limits, np.zeros(0)
+                rows, M, free, gives, True, λ, *self.limits, np.zeros(0), NEAR, LARGE
             )
             self.note(passes, error)
             return after
