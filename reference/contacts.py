@@ -207,3 +207,9 @@ def root(label, i):
         label[i] = label[label[i]]
         i = label[i]
     return i
+
+
+@inner
+def owner(bodies, r):
+    """A moving body of row or contact r; bodies (m, 2): −1: what doesn't move."""
+    return bodies[r, 0] if bodies[r, 0] >= 0 else bodies[r, 1]

@@ -19,6 +19,7 @@ from ..contacts import keys, label_islands, part, parting_speed, put_row, spread
 from ..lcp.augmented import dot
 from ..lcp.contact_sweeps import divide_by_mass
 from .moving import scatter_velocities
+from .paying import energies
 
 MOST_IMPACTS = 100  # in one step; after them nothing bounces any more until the step's end
 SHORT = 1e-3  # of a step
@@ -50,7 +51,7 @@ def look_ahead(contacts, speeds, filled, h, left, closed):
         comes = contacts.gap[q] + 2 * left * (w[q] + left * min(rate[q], 0.0)) < 0
         hard = not rebounds and (near or comes) and -w[q] > HARD * h * abs(rate[q])
         if hard:
-            energy = kinetic_energy(speeds.M, speeds.before) if energy < 0 else energy
+            energy = energies(speeds.M, speeds.before).sum() if energy < 0 else energy
             hard = impact_energy(contacts, q, w[q], speeds.M, room) > MATTERS * energy
         if near:
             strikes = strikes or (w[q] < 0 and e[q] > 0) or hard
@@ -58,17 +59,6 @@ def look_ahead(contacts, speeds, filled, h, left, closed):
         else:
             to_come[q] = hard or (rebounds and comes)
     return w, rate, e, strikes, to_come
-
-
-@inner
-def kinetic_energy(M, u):
-    """½ uᵀ M u, J."""
-    total = 0.0
-    for i in range(len(u)):
-        for a in range(u.shape[1]):
-            for b in range(u.shape[1]):
-                total += 0.5 * u[i, a] * M[i, a, b] * u[i, b]
-    return total
 
 
 @inner
@@ -194,15 +184,6 @@ def gaps_now(coming, others, now, bodies):
             continue
         for c in range(len(least)):
             same = coming.bodies[c, 0] == now.bodies[q, 0] and coming.bodies[c, 1] == now.bodies[q, 1]
-            if same and now.gap[q] < least[c] and same_side(coming.frame[c, 0], now.frame[q, 0]):
+            if same and now.gap[q] < least[c] and dot(coming.frame[c, 0], now.frame[q, 0]) > 0:
                 least[c] = now.gap[q]
     return least
-
-
-@inner
-def same_side(n, other):
-    """Whether two normals point the same way, roughly."""
-    product = 0.0
-    for a in range(len(n)):
-        product += n[a] * other[a]
-    return product > 0

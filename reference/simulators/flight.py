@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..compiled import compiled, compiled_apart, inner
-from ..contacts import contact_rows, gather, keys, label_islands, look_up, spread
+from ..contacts import contact_rows, gather, keys, label_islands, look_up, owner, spread
 from .held import join
 from .middle import TOUCHES, add_bias
 from .moving import move
@@ -142,8 +142,7 @@ def choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, us
         first = rows.block[q]
         if rows.lower[first] < 0 and rows.lower[first] > -np.inf:
             continue  # a motor's work is its own
-        i, j = rows.bodies[first, 0], rows.bodies[first, 1]
-        island = label[i if i >= 0 else j]
+        island = label[owner(rows.bodies, first)]
         for r in range(first, rows.block[q + 1]):
             twice, terms = 0.0, 0.0
             for side in range(2):

@@ -18,6 +18,8 @@ Dynamics: Theory and Applications (1985), section 5.8 (the paradox); Ivanov, J. 
 
 import numpy as np
 
+from .paying import energies
+
 MOST_BLOWS = 10_000
 
 
@@ -26,11 +28,6 @@ def rates(rows, u):
     moving = rows.bodies >= 0
     of_bodies = np.where(moving[..., None], u[rows.bodies], 0.0)
     return np.einsum("msk,msk->m", rows.J, of_bodies)
-
-
-def kinetic(M, u):
-    """½ uᵀ M u, J."""
-    return 0.5 * np.einsum("ia,iab,ib->", u, M, u)
 
 
 def newton(rows, e, M, u, solve):
@@ -77,14 +74,14 @@ def within_energy(rows, e, M, u, solve):
     rebound.
     """
     after, λ = newton(rows, e, M, u, solve)
-    most = kinetic(M, u)
-    if kinetic(M, after) <= most * (1 + 1e-15):
+    most = energies(M, u).sum()
+    if energies(M, after).sum() <= most * (1 + 1e-15):
         return after, λ
     plastic, λ0 = newton(rows, 0 * e, M, u, solve)
     # ½ |p + s (a − p)|²_M = most, a quadratic equation for the share s of the rebound
     back = after - plastic
-    a, b = kinetic(M, back), np.einsum("ia,iab,ib->", plastic, M, back)
-    c = min(kinetic(M, plastic) - most, 0.0)
+    a, b = energies(M, back).sum(), np.einsum("ia,iab,ib->", plastic, M, back)
+    c = min(energies(M, plastic).sum() - most, 0.0)
     s = (-b + np.sqrt(b * b - 4 * a * c)) / (2 * a)
     return plastic + s * back, λ0 + s * (λ - λ0)
 

@@ -23,7 +23,7 @@ import numpy as np
 from ..collision import ContactArrays
 from ..collision.find import make_contacts
 from ..compiled import compiled_apart, inner, lean, lean_apart
-from ..contacts import along, key_of, label_islands, part, parting_speed, relative_velocity
+from ..contacts import along, key_of, label_islands, owner, part, parting_speed, relative_velocity
 from ..lcp.augmented import dot
 from .moving import move
 
@@ -129,9 +129,9 @@ def add_bias(rows, contacts, half, start, middle, gap, h, closed):
     lands = np.zeros(len(start), np.bool_)
     for q in range(contacts.count[0]):
         if contacts.gap[q] > closed and contacts.gap[q] + h * parting_speed(contacts, q, start) < 0:
-            lands[label[owner(contacts, q)]] = True
+            lands[label[owner(contacts.slot, q)]] = True
     for q in range(contacts.count[0]):
-        if lands[label[owner(contacts, q)]]:
+        if lands[label[owner(contacts.slot, q)]]:
             continue
         first = rows.block[q]
         bias = parting_speed(half, q, before) - parting_speed(contacts, q, start)
@@ -141,9 +141,3 @@ def add_bias(rows, contacts, half, start, middle, gap, h, closed):
         changed = now[0] - then[0], now[1] - then[1], now[2] - then[2]
         for r in range(first + 1, rows.block[q + 1]):
             rows.c[r] += along(half.frame[q, r - first], changed)
-
-
-@inner
-def owner(contacts, q):
-    """A moving body of contact q."""
-    return contacts.slot[q, 0] if contacts.slot[q, 0] >= 0 else contacts.slot[q, 1]

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..compiled import compiled, compiled_apart, inner
-from ..contacts import label_islands
+from ..contacts import label_islands, owner
 from ..lcp.augmented import ContactRows, dot
 
 
@@ -68,12 +68,12 @@ def moving_rows(rows, still):
     """Which rows are of bodies that don't rest; where their blocks begin; and the blocks' μ."""
     blocks, size = 0, 0
     for q in range(len(rows.μ)):
-        if still[owner(rows, rows.block[q])] == 0:
+        if still[owner(rows.bodies, rows.block[q])] == 0:
             blocks, size = blocks + 1, size + rows.block[q + 1] - rows.block[q]
     row, block, μ = np.empty(size, np.int64), np.zeros(blocks + 1, np.int64), np.empty(blocks)
     blocks, size = 0, 0
     for q in range(len(rows.μ)):
-        if still[owner(rows, rows.block[q])] > 0:
+        if still[owner(rows.bodies, rows.block[q])] > 0:
             continue
         for r in range(rows.block[q], rows.block[q + 1]):
             row[size] = r
@@ -99,19 +99,13 @@ def put_back(moving, after, λ, free):
 
 
 @inner
-def owner(rows, r):
-    """A moving body of row r."""
-    return rows.bodies[r, 0] if rows.bodies[r, 0] >= 0 else rows.bodies[r, 1]
-
-
-@inner
 def find_still(rows, M, before, free, λ, label, still, room, rest, tolerance):
     """still (n,): 1 where an island stays at rest with these λ. room (3, n) and rest (n, k): zeros."""
     n, k = before.shape
     wrong, push, off = room[0], room[1], room[2]
     for q in range(len(rows.μ)):
         if not fits(rows, q, λ):
-            wrong[label[owner(rows, rows.block[q])]] = 1.0
+            wrong[label[owner(rows.bodies, rows.block[q])]] = 1.0
     for r in range(len(λ)):
         for side in range(2):
             i = rows.bodies[r, side]
