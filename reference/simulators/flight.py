@@ -24,7 +24,8 @@ from .moving import move
 from .paying import energies, pay
 from .resting import leave_out_rest, put_back
 
-REST, MOST_REST = 100, 1e-3  # times the solver's tolerance: so slow is at rest, where contacts hold it
+REST, NOISE = 100, 3  # times the solver's tolerance, or its error: so slow is at rest, where contacts hold it
+MOST_REST = 3e-3  # but no faster than this share of what forces would make of it in the step
 NO_WORK = 1e-12  # of the terms that it is a sum of: what rolls, or slides without friction, does no work
 
 
@@ -69,9 +70,11 @@ def push(solve, system, state, work, speeds, middle, contacts, half, held, known
     M, before, free = middle.M, middle.before, middle.free
     rows, gap, key, λ = prepare(speeds, middle, contacts, half, held, known, pushed, h, limits)
     moving = leave_out_rest(rows, M, before, free, λ, limits.tolerance)
-    found = solve(moving.rows, moving.M, moving.free, moving.λ, limits, worst)
+    here = np.zeros(2)
+    found = solve(moving.rows, moving.M, moving.free, moving.λ, limits, here)
+    worst[0], worst[1] = max(worst[0], here[0]), max(worst[1], here[1])
     after = put_back(moving, found, λ, free)
-    finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits)
+    finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits, here[1])
     return key, spread(rows, λ, len(key), state.x.shape[1]), λ
 
 
@@ -92,10 +95,11 @@ def prepare(speeds, middle, contacts, half, held, known, pushed, h, limits):
 
 
 @compiled_apart
-def finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits):
-    """Rest, and the new positions and velocities, once u⁺ = ``after`` is known."""
+def finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits, error):
+    """Rest, and the new positions and velocities, once u⁺ = ``after`` is known, with this error."""
     label, room = label_islands(rows.bodies, len(after)), np.zeros((8, len(after)))
-    let_rest(label, rows, λ, before, free, after, min(REST * limits.tolerance, MOST_REST), room[:3])
+    slow = min(max(REST * limits.tolerance, NOISE * error), MOST_REST)
+    let_rest(label, rows, λ, before, free, after, slow, room[:3])
     used, excess, slack = np.empty_like(after), np.zeros(len(after)), limits.closed
     if choose_velocities(rows, label, gap, M, before, free, after, λ, h, slack, used, excess, room[3:]):
         pay(label, excess, energies(M, after), after - free, M, after, np.zeros((4, len(after))))
