@@ -49,7 +49,7 @@ NEAR = 1e-4  # ε at first
 WEIGHTS = (1e-6, 1e-8, 1e-10, 1e-4, 1e-2)  # and then: smaller where passes are slow, larger to polish, for
 POLISH = (1e-4, 1e-3, 1e-2, 1e-6, 1e-8, 1e-4, 1e-2)  # w's rounding is 1e-16/ε of λ; and from near the answer
 SINGLE, TURNS = 2, 20  # so few contacts are first solved one by one, exactly, and so often
-COARSE, MOST_TURNS = 1e-5, 25  # and so are all, some times as often, to a tolerance as large as this
+COARSE, MOST_TURNS = 1e-5, 25  # where such an error is enough, sweeps may do, some times as many
 ALL, GOOD = 1 << 62, 1e-3  # contacts, and the error at which more than ``large`` may be left
 LIMITED = (1e-8, 1e-10, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-4)  # of passes with limits: λ must get somewhere
 ROUGH, CLOSE = 1e-3, 1e-8  # errors until which to come from inside
@@ -69,7 +69,7 @@ def cone_newton_kernel(
     error): how far they are from the law (``coulomb.breach``) and from M (u − free) = Jᵀ λ, m/s, over the
     worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with. large: of
     more contacts an error of GOOD is enough, if passes don't find the answer at once. What is right to begin
-    with, or after sweeps over one or two contacts or to a coarse tolerance, counts as one pass.
+    with, or after sweeps, counts as one pass.
     """
     blocks, room = len(rows.μ), make_room(rows, *free.shape)
     moves, u = np.empty(rows.J.shape), free.copy()
@@ -82,7 +82,8 @@ def cone_newton_kernel(
         return u, 0, 0.0
     add_rows(rows.bodies, moves, λ, u)
     best = Best(λ.copy(), u.copy(), np.full(1, np.inf))
-    if blocks <= SINGLE or tolerance >= COARSE:
+    enough = max(tolerance, GOOD) if blocks > large else tolerance
+    if blocks <= SINGLE or (blocks > large and tolerance >= COARSE):
         error = by_sweeps(rows, free, moves, softness, coulomb, λ, u, tolerance * scale, room.size)
     else:
         error = breach(rows, room.size, softness, coulomb, λ, velocities(rows, u))
@@ -95,14 +96,13 @@ def cone_newton_kernel(
         rows, M, free, softness, coulomb, λ, u, near, WEIGHTS, FEW, room, best, tolerance, scale,
         max_iterations, history,
     )  # fmt: skip
-    if blocks > large and best.error[0] > tolerance:
+    if enough >= COARSE and best.error[0] > tolerance:
         λ[:] = best.λ
-        error = by_sweeps(rows, free, moves, softness, coulomb, λ, u, GOOD * scale, room.size)
+        error = by_sweeps(rows, free, moves, softness, coulomb, λ, u, enough * scale, room.size)
         keep_best(best, λ, u, error / scale)
     faces = coulomb and has_faces(rows)
     for start in range(0 if faces else 1, MOST_STARTS):
-        enough = GOOD if blocks > large else NEARLY if start > 2 else 0.0
-        if best.error[0] <= max(tolerance, enough) or passes == max_iterations:
+        if best.error[0] <= max(enough, NEARLY if start > 2 else 0.0) or passes == max_iterations:
             break
         λ[:], u[:] = best.λ, best.u
         begin_again(start, rows, M, free, moves, softness, coulomb, λ, u, tolerance, scale, room)

@@ -60,9 +60,9 @@ def test_bodies_added_in_another_order_make_the_same_contacts_and_velocities(d, 
     "n, d, seed, worst, unsolved",
     [
         (40, 2, 0, 1e-8, 0.05),
-        (40, 2, 1, 1e-8, 0.02),
+        (40, 2, 1, 1e-8, 0.05),
         pytest.param(100, 2, 0, 1e-4, 0.3, marks=pytest.mark.slow),
-        pytest.param(30, 3, 0, 0.05, 0.05, marks=pytest.mark.slow),  # spheres: nothing brakes what rolls
+        pytest.param(30, 3, 0, 0.05, 0.2, marks=pytest.mark.slow),  # spheres: nothing brakes what rolls
     ],
 )
 def test_a_heap_comes_to_rest(n, d, seed, worst, unsolved):
@@ -74,8 +74,20 @@ def test_a_heap_comes_to_rest(n, d, seed, worst, unsolved):
     assert run.status == "ok" and case.error(run) < worst
     energy = run.energy()
     assert np.max(energy - np.minimum.accumulate(energy)) < 1e-6 * energy[0]
+    assert run.residual.max() < 1e-2
     short = np.count_nonzero(run.residual > 1e-12)
     assert short <= unsolved * (len(run.time) - 1) and (short > 0) == ("some steps stopped" in run.reason)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
+def test_a_tolerance_is_kept(tolerance):
+    """A coarse one saves time, but nothing gains energy or sinks in, and the box bears the weight."""
+    case = CASES["heap"](n=40, dimension=2, duration=1.5)
+    run = simulate(case.scene, case.duration, FRAME, tolerance=tolerance)
+    assert run.status == "ok" and np.max(run.residual) <= tolerance
+    energy = run.energy()
+    assert np.max(energy - np.minimum.accumulate(energy)) < 1e-4 * tolerance * energy[0]
+    assert run.penetration().max() < 1e-8 * 0.1 and case.error(run) < tolerance
 
 
 @pytest.mark.study

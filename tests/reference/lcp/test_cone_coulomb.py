@@ -5,9 +5,10 @@ import pytest
 
 from contact_scenes import rise
 from reference import Box, Plane, Scene, Simulation, Sphere, simulate
+from reference.cases import CASES
 from reference.factored import Factored, add_rows
 from reference.lcp import LCP, ConeProblem, cone_gauss_seidel, cone_newton
-from reference.lcp.cone_newton import cone_newton_kernel
+from reference.lcp.cone_newton import NEAR, ContactRows, cone_newton_kernel
 from reference.lcp.contact_sweeps import fill_moves, sweep_contacts
 from reference.simulators.solving import cone_problem, factors
 
@@ -77,7 +78,7 @@ def solved(rows, M, free, start):
 
 @pytest.mark.parametrize("seeds", [range(1, 6), pytest.param(range(6, 80), marks=pytest.mark.slow)])
 def test_boxes_on_sliding_spinning_boxes(seeds):
-    """Of such problems 2 % may stay unsolved, and must say so (measured: 28 of 1,896, the worst 1e-4 from the
+    """Of such problems 2 % may stay unsolved, and must say so (measured: 24 of 1,896, the worst 1e-7 from the
     law). No energy comes in, whatever is left.
     """
     steps = unsolved = 0
@@ -85,12 +86,36 @@ def test_boxes_on_sliding_spinning_boxes(seeds):
         run = simulate(falling(seed), 0.4, FRAME)
         assert run.status == "ok", seed
         here = np.count_nonzero(run.residual > TOLERANCE)
-        assert run.residual.max() < 1e-3, seed
+        assert run.residual.max() < 1e-4, seed
         assert (here > 0) == ("some steps stopped" in run.reason), seed
         steps, unsolved = steps + len(run.time) - 1, unsolved + here
         energy = run.energy()
         assert rise(energy) < 1e-10 * np.abs(energy).max(), seed
     assert unsolved <= 0.02 * steps
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_large_heap_is_left_at_three_digits(seed):
+    """Where ``large`` says that there are many contacts, and passes don't get there at once."""
+    sim = Simulation(CASES["heap"](n=60, dimension=2, seed=seed).scene, FRAME)
+    for _ in range(45):
+        sim.step()
+    rows, M, free = problem_of(sim)
+    rows, λ = ContactRows(*rows), np.zeros(len(rows.c))
+    _, _, error = cone_newton_kernel(
+        rows, M, free, np.zeros(len(rows.μ)), True, λ, TOLERANCE, 100, np.zeros(0), NEAR, 0
+    )
+    assert 1e-9 < error <= 1e-3 and breach(rows, M, free, λ) < 3 * error
+
+
+def test_what_is_right_already_costs_nothing():
+    """The λ of a solve is where the next begins: it stays, bit for bit."""
+    sim = Simulation(CASES["pyramid"](base=6).scene, FRAME)
+    rows, M, free = problem_of(sim)
+    λ, u, _ = solved(rows, M, free, np.zeros(len(rows.c)))
+    again, same, passes = solved(rows, M, free, λ)
+    assert passes == 1 and np.array_equal(again, λ)
+    np.testing.assert_allclose(same, u, atol=1e-12)
 
 
 @pytest.mark.parametrize("seed", [1, 3, 5])
