@@ -68,8 +68,8 @@ def cone_newton_kernel(
     softness (B,): γ of each block's first row, which gives way: w = J u + c + γ λ. Returns (u, passes,
     error): how far they are from the law (``coulomb.breach``) and from M (u − free) = Jᵀ λ, m/s, over the
     worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with. large: of
-    more contacts an error of GOOD is enough, if passes don't find the answer at once. What is right to begin
-    with, or after sweeps, counts as one pass.
+    more contacts an error of GOOD is enough, if passes don't find the answer at once. Where sweeps get
+    there at first, they count as one pass.
     """
     blocks, room = len(rows.μ), make_room(rows, *free.shape)
     moves, u = np.empty(rows.J.shape), free.copy()
@@ -84,12 +84,12 @@ def cone_newton_kernel(
     best = Best(λ.copy(), u.copy(), np.full(1, np.inf))
     enough = max(tolerance, GOOD) if blocks > large else tolerance
     if blocks <= SINGLE or (blocks > large and tolerance >= COARSE):
-        error = by_sweeps(rows, free, moves, softness, coulomb, λ, u, tolerance * scale, room.size)
-    else:
-        error = breach(rows, room.size, softness, coulomb, λ, velocities(rows, u))
-    if keep_best(best, λ, u, error / scale) <= tolerance:
-        history[:1] = error / scale
-        return u, 1, error / scale
+        error = by_sweeps(rows, free, moves, softness, coulomb, λ, u, tolerance * scale, room.size) / scale
+        if keep_best(best, λ, u, error) <= tolerance:
+            history[:1] = error
+            return u, 1, error
+    elif enough >= COARSE:  # sweeps may have to begin from here
+        keep_best(best, λ, u, breach(rows, room.size, softness, coulomb, λ, velocities(rows, u)) / scale)
     if coulomb:
         begin_shift(rows, velocities(rows, u), room.law)
     passes = make_passes(
