@@ -63,8 +63,8 @@ def test_bodies_added_in_another_order_make_the_same_contacts_and_velocities(d, 
     [
         (40, 2, 0, 1e-8, 0.05),
         (40, 2, 1, 1e-8, 0.05),
-        pytest.param(100, 2, 0, 1e-4, 0.3, marks=pytest.mark.slow),
-        pytest.param(30, 3, 0, 0.05, 0.2, marks=pytest.mark.slow),  # spheres: nothing brakes what rolls
+        pytest.param(100, 2, 0, 1e-4, 0.5, marks=pytest.mark.slow),
+        pytest.param(30, 3, 0, 0.05, 0.4, marks=pytest.mark.slow),  # spheres: nothing brakes what rolls
     ],
 )
 def test_a_heap_comes_to_rest(n, d, seed, worst, unsolved):
@@ -76,7 +76,7 @@ def test_a_heap_comes_to_rest(n, d, seed, worst, unsolved):
     assert run.status == "ok" and case.error(run) < worst
     energy = run.energy()
     assert np.max(energy - np.minimum.accumulate(energy)) < 1e-6 * energy[0]
-    assert run.residual.max() < 1e-2
+    assert run.residual.max() < 0.05
     short = np.count_nonzero(run.residual > 1e-12)
     assert short <= unsolved * (len(run.time) - 1) and (short > 0) == ("some steps stopped" in run.reason)
 
