@@ -38,11 +38,11 @@ class Settings:
 
     simulator: a family of S3: "smooth", where nothing can touch, else "velocity_lcp". integrator: a name in
     ``INTEGRATORS``, for smooth motion. iterations, tolerance: limits of an implicit integrator's own
-    Newton iteration, or of the contact solver's passes (a large heap may be left short: ``cone_newton``). substeps: steps of dt/substeps for each dt.
-    record_every: a record each so many dt, and always at the end. solver: of the joints' λ, a name in
-    ``MULTIPLIERS``, or of the contacts', a name in ``lcp.SOLVERS``. friction: "cone", "box" or "pyramid"
-    (``solving``). correction: a name in ``CORRECTIONS``, or (name, {parameter: value}). impact, warm_start,
-    record_contacts: for contact; seed: for what is drawn at random.
+    Newton iteration, or of the contact solver's passes (a large heap may be left short: ``cone_newton``).
+    substeps: steps of dt/substeps for each dt. record_every: a record each so many dt, and always at the
+    end. solver: of the joints' λ, a name in ``MULTIPLIERS``, or of the contacts', a name in ``lcp.SOLVERS``.
+    friction: "cone", "box" or "pyramid" (``solving``). correction: a name in ``CORRECTIONS``, or (name,
+    {parameter: value}). impact, warm_start, record_contacts: for contact; seed: for what is drawn at random.
     """
 
     simulator: str | None = None
