@@ -17,7 +17,7 @@ passes don't halve the error, or have too many states to try, they begin again: 
 (``cone_interior``); from where passes with friction's *limit* lead (``coulomb``); and at last from where
 sweeps over the contacts lead (``contact_sweeps``). The best of all these counts.
 
-A heap of a thousand contacts has no need of twelve digits, and asking for them takes ten times as long.
+A heap of a thousand contacts has no need of twelve digits, and asking for them takes several times as long.
 There sweeps are enough, if passes don't get there at once (``large``); an arch or a pyramid's passes do.
 
 A face that slides and turns in space may have many answers. The path from inside ends at one of them, and the
