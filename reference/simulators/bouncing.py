@@ -5,34 +5,37 @@ before the step ends, the bodies fly only until they touch, the impact law chang
 rest of the step follows.
 
 A ball that bounces comes to rest after infinitely many bounces in a finite time. One that would last a
-thousandth of the step or less is taken for none. In the same way a landing without rebound is hard only
+hundredth of the step or less is taken for none. In the same way a landing without rebound is hard only
 where it is faster than the forces of a step can explain, and takes so much of the energy that it matters to
 the whole: any other happens at the end of the step in which it comes, within the flight.
 
-Slides S9, S10; lectures/05_contact.md.
+In a crowd each impact brings on others, without an end (inelastic collapse). So when ten times in a step
+bodies were struck that had been struck in it before, the rest of it is shared among the ``MOST_AGAIN`` that
+may be: what would touch within such a share touches now, and a rebound slower than what forces do to a body
+in that time is none.
+
+Slides S9, S10; lectures/05_contact.md. Source: McNamara & Young, Phys. Fluids A 4 (1992) 496 (the collapse).
 """
 
 import numpy as np
 
-from ..compiled import compiled, compiled_apart, inner
-from ..contacts import keys, label_islands, part, parting_speed, put_row, spread
+from ..compiled import compiled_apart, inner
+from ..contacts import label_islands, part, parting_speed, put_row, spread
 from ..lcp.augmented import dot
 from ..lcp.contact_sweeps import divide_by_mass
 from .moving import scatter_velocities
 from .paying import energies
 
-MOST_IMPACTS = 100  # in one step; after them nothing bounces any more until the step's end
-SHORT = 1e-3  # of a step
+EXACT, MOST_AGAIN = 10, 30  # impacts in a step that come again: so many at their very time, and all
+SHORT = 1e-2  # of a step
 HARD = 0.5  # times what forces change the speed by in a step: a landing that is faster is hard
 MATTERS = 0.02  # of the energy of motion: a landing that takes less isn't worth a step of the whole scene
-MOST_TRIES, SURE = 60, 12  # at the time of an impact; so many by parabolas, the others by halves
-SHORTEST = 1e-9  # of the time searched: less is no flight
 
 
 @compiled_apart
-def look_ahead(contacts, speeds, filled, h, left, closed):
+def look_ahead(contacts, speeds, filled, h, left, early, closed):
     """What these contacts (m) are about to do in the time left, s, of a step of h; w, m/s, is how fast they
-    part, and rate how w would change without contact, m/s².
+    part, and rate how w would change without contact, m/s². early: s, see ``strike``.
 
     Returns w (m,), rate (m,), e (m,): with how much of its speed each would rebound now; strikes: whether
     some have an impact now; and to_come (m,): which may have one later. filled: s, for ``speeds``.
@@ -43,22 +46,39 @@ def look_ahead(contacts, speeds, filled, h, left, closed):
     for q in range(m):
         w[q] = parting_speed(contacts, q, speeds.before)
         rate[q] = (parting_speed(contacts, q, speeds.free) - w[q]) / filled
-        e[q] = contacts.restitution[q]
-        if e[q] > 0 and rate[q] < 0 and 2 * e[q] * w[q] / rate[q] <= SHORT * h:
+        e[q], gap, falls = contacts.restitution[q], contacts.gap[q], min(rate[q], 0.0)
+        near, rebounds = gap <= closed, e[q] > 0
+        # twice the speed of the slowest rebound that counts
+        slow = -falls * SHORT * h if early == 0 else early * pull(contacts, q, speeds) / filled
+        if 2 * e[q] * -w[q] <= slow:
             e[q] = 0.0
-        near, rebounds = contacts.gap[q] <= closed, contacts.restitution[q] > 0
         # a flight's row looks at the end velocity; here with twice that way, should others push as well
-        comes = contacts.gap[q] + 2 * left * (w[q] + left * min(rate[q], 0.0)) < 0
+        comes = gap + 2 * left * (w[q] + left * falls) < 0
         hard = not rebounds and (near or comes) and -w[q] > HARD * h * abs(rate[q])
         if hard:
             energy = energies(speeds.M, speeds.before).sum() if energy < 0 else energy
             hard = impact_energy(contacts, q, w[q], speeds.M, room) > MATTERS * energy
         if near:
             strikes = strikes or (w[q] < 0 and e[q] > 0) or hard
-            to_come[q] = rebounds and w[q] + left * rate[q] < 0 and 2 * w[q] > -SHORT * h * rate[q]
+            to_come[q] = rebounds and w[q] + left * rate[q] < 0 and 2 * w[q] > slow
         else:
-            to_come[q] = hard or (rebounds and comes)
+            met = np.sqrt(w[q] * w[q] - 2 * gap * falls)  # how fast it comes, had it flown straight on
+            to_come[q] = hard or (comes and 2 * contacts.restitution[q] * met > slow)
     return w, rate, e, strikes, to_come
+
+
+@inner
+def pull(contacts, q, speeds):
+    """By how much forces would change the speed of one of the bodies of contact q at the most, m/s."""
+    most = 0.0
+    for side in range(2):
+        i = contacts.slot[q, side]
+        if i >= 0:
+            square = 0.0
+            for a in range(contacts.point.shape[1]):
+                square += (speeds.free[i, a] - speeds.before[i, a]) ** 2
+            most = max(most, np.sqrt(square))
+    return most
 
 
 @inner
@@ -74,15 +94,20 @@ def impact_energy(contacts, q, w, M, room):
     return 0.5 * w * w / lightness
 
 
-def strike(sim, contacts, h):
-    """The impact of what touches and approaches, by the scene's law. Returns whether there was one.
+def strike(sim, contacts, h, early):
+    """The impact of what touches and approaches, by the scene's law. Returns which bodies it struck (n,).
 
-    h: the whole step, s.
+    h: the whole step, s; early: s, what would touch within this time counts as touching.
     """
     closed = part(contacts, contacts.gap <= sim.closed)
-    w, _, e, strikes, _ = look_ahead(closed, sim.speeds, sim.filled, h, h, sim.closed)
+    if early:
+        w, _ = motion(sim, contacts)
+        closed = part(contacts, contacts.gap + early * np.minimum(w, 0.0) <= sim.closed)
+        closed.gap[:] = np.minimum(closed.gap, 0.0)
+    w, _, e, strikes, _ = look_ahead(closed, sim.speeds, sim.filled, h, h, early, sim.closed)
+    hit = np.zeros(len(sim.before), dtype=bool)
     if not strikes:
-        return False
+        return hit
     struck = reached(closed, w, sim.held.rows.bodies, len(sim.before))
     closed, e = part(closed, struck), e[struck]
 
@@ -94,8 +119,11 @@ def strike(sim, contacts, h):
     of_all = np.concatenate([e, np.zeros(len(sim.held))])
     after, λ = sim.law(rows, of_all, sim.M, sim.before, solve)
     scatter_velocities(sim.system, after, sim.state)
-    sim.touched.add(closed, spread(rows, λ, len(e), sim.d))
-    return True
+    impulse = spread(rows, λ, len(e), sim.d)
+    sim.touched.add(closed, impulse)
+    slots = closed.slot[impulse.any(axis=1)]
+    hit[slots[slots >= 0]] = True
+    return hit
 
 
 def reached(contacts, w, joints, n):
@@ -105,85 +133,6 @@ def reached(contacts, w, joints, n):
     return np.isin(island, island[w < 0])
 
 
-def hop(sim, contacts, h, left):
-    """Move on by what is left of a step of h, or until the next impact; returns by how much, s."""
-    w, rate, _, _, to_come = look_ahead(contacts, sim.speeds, sim.filled, h, left, sim.closed)
-    if not to_come.any():
-        return sim.fly(contacts, left)
-    coming, others = part(contacts, to_come), part(contacts, ~to_come)
-    w, rate, start, slack = w[to_come], rate[to_come], sim.keep(), 0.5 * sim.closed
-
-    def gaps_after(time):
-        """The gaps of what is to come, after the bodies have flown for this time as if it did not."""
-        sim.restore(start)
-        sim.fly(others, time)
-        return gaps_now(coming, others, sim.find(left), sim.limits.bodies)
-
-    gaps, end = gaps_after(left), left
-    expected = coming.gap + left * (w + 0.5 * left * rate)  # had it flown straight on, unhindered
-    through = (expected < -sim.closed) & (coming.gap > sim.closed) & np.isinf(gaps)
-    if gaps.min() >= slack:
-        if not through.any():
-            return left
-        # right through the other, or past it: look for the moment when it was there
-        end = left * (coming.gap[through] / (coming.gap[through] - expected[through])).min()
-        gaps = gaps_after(end)
-        if gaps.min() >= 0:
-            return end
-    low, high, time = 0.0, end, meeting(coming.gap, w, gaps, end, slack)
-    for tries in range(MOST_TRIES):
-        if tries > SURE or not low < time < high:
-            time = 0.5 * (low + high)
-        gaps = gaps_after(time)
-        gap = gaps.min() - slack
-        if abs(gap) <= slack or high - low <= SHORTEST * end:
-            break
-        low, high = (time, high) if gap > 0 else (low, time)
-        time = meeting(coming.gap, w, gaps, time, slack)
-    return time
-
-
-@compiled
-def meeting(gap, w, gap_end, end, slack):
-    """The first of the times at which contacts (c,) meet that are gap apart now, and gap_end at the time end.
-
-    Each gap is taken for a parabola, gap + w t + ½ a t²: right for free flight, and the better for any other
-    the nearer the end is to the answer. inf, where none meets.
-    """
-    first = np.inf
-    for q in range(len(gap)):
-        a = 2 * (gap_end[q] - gap[q] - w[q] * end) / end**2
-        under = w[q] * w[q] - 2 * a * (gap[q] - slack)
-        if not (under >= 0 and gap_end[q] < np.inf):
-            continue
-        root = np.sqrt(under)
-        if w[q] < 0:
-            first = min(first, 2 * (gap[q] - slack) / (root - w[q]))
-        elif a < 0:
-            first = min(first, (w[q] + root) / -a)
-    return first
-
-
 def motion(sim, contacts):
     """How fast each contact parts, w_n (m,), and how its rate would change without contact, per s."""
-    return look_ahead(contacts, sim.speeds, sim.filled, 0.0, 0.0, 0.0)[:2]
-
-
-@compiled
-def gaps_now(coming, others, now, bodies):
-    """The least gap, now, of each pair that was coming (c,), seen from the same side; inf where none is near.
-
-    What the flight itself kept apart, ``others``, is not meant.
-    """
-    kept, key, p = keys(others, bodies), keys(now, bodies), 0
-    least = np.full(coming.count[0], np.inf)
-    for q in range(len(key)):
-        while p < len(kept) and kept[p] < key[q]:
-            p += 1
-        if p < len(kept) and kept[p] == key[q]:
-            continue
-        for c in range(len(least)):
-            same = coming.bodies[c, 0] == now.bodies[q, 0] and coming.bodies[c, 1] == now.bodies[q, 1]
-            if same and now.gap[q] < least[c] and dot(coming.frame[c, 0], now.frame[q, 0]) > 0:
-                least[c] = now.gap[q]
-    return least
+    return look_ahead(contacts, sim.speeds, sim.filled, 0.0, 0.0, 0.0, 0.0)[:2]

@@ -87,7 +87,7 @@ def begin_lifts(state, speeds, start, label, had, way):
 @compiled(door=False)
 def quiet(contacts, speeds, h, limits):
     """Whether nothing strikes, or is about to."""
-    _, _, _, strikes, to_come = look_ahead(contacts, speeds, h, h, h, limits.closed)
+    _, _, _, strikes, to_come = look_ahead(contacts, speeds, h, h, h, 0.0, limits.closed)
     for q in range(len(to_come)):
         if to_come[q]:
             return False

@@ -17,11 +17,12 @@ from ..compiled import bind
 from ..contacts import contact_rows, part
 from ..forces import external_force, with_user_forces
 from ..trajectory import BodyState
-from .bouncing import MOST_IMPACTS, hop, strike
+from .bouncing import EXACT, MOST_AGAIN, strike
 from .coasting import coast
 from .flight import Limits, Turning, push
 from .free import fill_free, make_speeds
 from .held import Held, join
+from .impact_time import hop
 from .impacts import IMPACTS
 from .lifting import lift, raise_apart
 from .middle import half_way, make_near, reach
@@ -132,16 +133,19 @@ class VelocityLCP:
 
     def step(self, t, h):
         """One step of S9, from impact to impact."""
-        start, left, impacts = self.state.y.copy(), h, 0
+        start, left, struck, again, hops = self.state.y.copy(), h, False, 0, 0
         while left > 0:
             self.fill(t + h - left, left)
             contacts = lift(self, self.find(left), left)
-            meeting = impacts < MOST_IMPACTS
-            if meeting and strike(self, contacts, h):
+            others = MOST_AGAIN - again
+            early = left / others if again >= EXACT else 0.0  # what is left is shared among them
+            hit = strike(self, contacts, h, early)
+            if hit.any():
                 self.fill(t + h - left, left)
-            done = hop(self, contacts, h, left) if meeting else self.fly(contacts, left)
-            left, impacts = left - done if done < left else 0.0, impacts + 1
-        self.still = self.timeless and impacts == 1 and np.array_equal(start, self.state.y)
+            again += np.any(struck & hit) or not hit.any()
+            done = hop(self, contacts, h, left, early) if others > 1 else self.fly(contacts, left)
+            left, struck, hops = left - done if done < left else 0.0, struck | hit, hops + 1
+        self.still = self.timeless and hops == 1 and np.array_equal(start, self.state.y)
         if not self.still:  # what is recorded is a state that joints and contacts allow
             self.fill(t + h, h)
             lift(self, self.find(h), h)
