@@ -35,8 +35,9 @@ class BodyState:
 @dataclass(frozen=True)
 class Contacts:
     """The m contacts of one record. bodies (m, 2), lower number first; point (m, d); frame (m, d, d), rows n,
-    t1, t2, n from first to second; depth (m,); impulse (m, d) in that frame, N s, summed since the record
-    before."""
+    t1, t2, n from first to second; depth (m,), below 0 where they are apart; impulse (m, d) in that frame,
+    N s, summed since the record before. What has parted since has the point and frame that it had last.
+    """
 
     bodies: np.ndarray
     point: np.ndarray

@@ -26,7 +26,7 @@ from ..lcp.contact_sweeps import divide_by_mass
 from .moving import scatter_velocities
 from .paying import energies
 
-EXACT, MOST_AGAIN = 10, 30  # impacts in a step that come again: so many at their very time, and all
+EXACT, MOST_AGAIN = 10, 30  # impacts of a step that come again: so many each at its time; and in all
 SHORT = 1e-2  # of a step
 HARD = 0.5  # times what forces change the speed by in a step: a landing that is faster is hard
 MATTERS = 0.02  # of the energy of motion: a landing that takes less isn't worth a step of the whole scene
@@ -50,7 +50,7 @@ def look_ahead(contacts, speeds, filled, h, left, early, closed):
         near, rebounds = gap <= closed, e[q] > 0
         # twice the speed of the slowest rebound that counts
         slow = -falls * SHORT * h if early == 0 else early * pull(contacts, q, speeds) / filled
-        if 2 * e[q] * -w[q] <= slow:
+        if slow > 0 and 2 * e[q] * -w[q] <= slow:
             e[q] = 0.0
         # a flight's row looks at the end velocity; here with twice that way, should others push as well
         comes = gap + 2 * left * (w[q] + left * falls) < 0
@@ -92,6 +92,25 @@ def impact_energy(contacts, q, w, M, room):
             divide_by_mass(M[i], row, moved)
             lightness += dot(row, moved)
     return 0.5 * w * w / lightness
+
+
+class Hits:
+    """The impacts of a step: which bodies they struck (n,), and how many came again: struck one of these
+    bodies, or none.
+    """
+
+    def __init__(self):
+        self.struck, self.again = False, 0
+
+    def early(self, left):
+        """How long before its time the next impact will do, s: none; in a crowd a share of what is left."""
+        return left / (MOST_AGAIN - self.again) if self.again >= EXACT else 0.0
+
+    def add(self, hit):
+        """Count one more, which struck these bodies (n,). Returns whether it struck any."""
+        self.again += bool(np.any(self.struck & hit) or not hit.any())
+        self.struck = self.struck | hit
+        return hit.any()
 
 
 def strike(sim, contacts, h, early):

@@ -54,7 +54,9 @@ class Touched:
         world = np.zeros((m, self.d))
         np.add.at(world, group, np.einsum("mi,mij->mj", impulse, frame))
         impulse = np.einsum("mij,mj->mi", frame[last], world)
-        counts = np.any(impulse != 0, axis=1) | (gap[last] <= slack)
+        apart = last < len(gap) - len(there.gap)  # not any more among what touches
+        gap[last[apart]] = np.maximum(gap[last[apart]], slack)
+        counts = np.any(impulse != 0, axis=1) | ~apart
         last = last[counts]
         self.closed.append((bodies[last], point[last], frame[last], -gap[last], impulse[counts]))
         self.notes.clear()

@@ -17,7 +17,7 @@ from ..compiled import bind
 from ..contacts import contact_rows, part
 from ..forces import external_force, with_user_forces
 from ..trajectory import BodyState
-from .bouncing import EXACT, MOST_AGAIN, strike
+from .bouncing import Hits, strike
 from .coasting import coast
 from .flight import Limits, Turning, push
 from .free import fill_free, make_speeds
@@ -133,18 +133,14 @@ class VelocityLCP:
 
     def step(self, t, h):
         """One step of S9, from impact to impact."""
-        start, left, struck, again, hops = self.state.y.copy(), h, False, 0, 0
+        start, left, hits, hops = self.state.y.copy(), h, Hits(), 0
         while left > 0:
             self.fill(t + h - left, left)
-            contacts = lift(self, self.find(left), left)
-            others = MOST_AGAIN - again
-            early = left / others if again >= EXACT else 0.0  # what is left is shared among them
-            hit = strike(self, contacts, h, early)
-            if hit.any():
+            contacts, early = lift(self, self.find(left), left), hits.early(left)
+            if hits.add(strike(self, contacts, h, early)):
                 self.fill(t + h - left, left)
-            again += np.any(struck & hit) or not hit.any()
-            done = hop(self, contacts, h, left, early) if others > 1 else self.fly(contacts, left)
-            left, struck, hops = left - done if done < left else 0.0, struck | hit, hops + 1
+            done = hop(self, contacts, h, left, early) if early < left else self.fly(contacts, left)
+            left, hops = left - done if done < left else 0.0, hops + 1
         self.still = self.timeless and hops == 1 and np.array_equal(start, self.state.y)
         if not self.still:  # what is recorded is a state that joints and contacts allow
             self.fill(t + h, h)

@@ -58,6 +58,20 @@ def test_bodies_added_in_another_order_make_the_same_contacts_and_velocities(d, 
         np.testing.assert_allclose(a[number], b, atol=100 * 1e-12 * scale / 0.2)  # ω: over .2 m
 
 
+def depths(run):
+    """By how much any two balls, or a ball and a plane of the box, are in each other: (T,)."""
+    declared, x = run.bodies.declared, run.position
+    balls = [i for i, body in enumerate(declared) if not body.static]
+    r = np.array([declared[i].shape.radius for i in balls])
+    between = np.linalg.norm(x[:, balls, None] - x[:, None, balls], axis=-1) - r[:, None] - r
+    between[:, range(len(r)), range(len(r))] = np.inf
+    gaps = [between.min(axis=(1, 2))]
+    for i, body in enumerate(declared):
+        if body.static:
+            gaps.append(((x[:, balls] - body.position) @ body.shape.normal - r).min(axis=1))
+    return np.maximum(-np.min(gaps, axis=0), 0.0)
+
+
 @pytest.mark.parametrize(
     "n, d, seed, worst, unsolved",
     [
@@ -77,6 +91,7 @@ def test_a_heap_comes_to_rest(n, d, seed, worst, unsolved):
     energy = run.energy()
     assert np.max(energy - np.minimum.accumulate(energy)) < 1e-6 * energy[0]
     assert run.residual.max() < 0.05
+    np.testing.assert_allclose(run.penetration(), depths(run), atol=1e-12)
     short = np.count_nonzero(run.residual > 1e-12)
     assert short <= unsolved * (len(run.time) - 1) and (short > 0) == ("some steps stopped" in run.reason)
 

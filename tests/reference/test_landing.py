@@ -6,7 +6,7 @@ import pytest
 from contact_scenes import G, at, ground, pyramid, rise
 from reference import Box, Disc, Plane, Scene, Simulation, Sphere, simulate
 from reference.cases import CASES
-from reference.simulators import bouncing
+from reference.simulators import impact_time
 from reference.simulators.velocity_lcp import VelocityLCP
 
 FRAME = 1 / 60
@@ -59,17 +59,59 @@ def test_rocking_converges():
 def test_what_rocks_to_rest_does_not_step_from_landing_to_landing(monkeypatch):
     """Landings come ever faster (Zeno): those that the forces of a step explain are not looked for."""
     most = {}
-    hop = bouncing.hop
+    hop = impact_time.hop
 
-    def counted(sim, contacts, h, left):
+    def counted(sim, contacts, h, left, early):
         most[sim.now + left] = most.get(sim.now + left, 0) + 1
-        return hop(sim, contacts, h, left)
+        return hop(sim, contacts, h, left, early)
 
     monkeypatch.setattr("reference.simulators.velocity_lcp.hop", counted)
     case = CASES["rocking_block"]()
     sim = Simulation(case.scene, FRAME, record_contacts=False)
     sim.advance(10.0)
     assert np.all(sim.state.velocity == 0) and max(most.values()) <= 4
+
+
+def bounced(height, e, t):
+    """How high a ball is over the ground at time t, let go at a height: by hand, bounce after bounce."""
+    fallen = np.sqrt(2 * height / G)
+    if t < fallen:
+        return height - 0.5 * G * t**2
+    speed, t = e * G * fallen, t - fallen
+    while t > 2 * speed / G:
+        speed, t = e * speed, t - 2 * speed / G
+    return speed * t - 0.5 * G * t**2
+
+
+def test_of_many_balls_each_bounces_by_itself():
+    """Three hundred at once, some ten impacts a step: no crowd, since none is struck twice in a step."""
+    heights, e = np.linspace(0.5, 1.5, 300), 0.8
+    scene = Scene(gravity=(0, -G))
+    scene.add(Plane((0, 1)), restitution=e)
+    for k, height in enumerate(heights):
+        scene.add(Disc(0.1), position=(0.3 * k, 0.1 + height), restitution=e)
+    run = simulate(scene, 1.5, FRAME, record_every=90, record_contacts=False)
+    expected = [0.1 + bounced(height, e, 1.5) for height in heights]
+    np.testing.assert_allclose(run.position[-1, 1:, 1], expected, atol=1e-9)
+
+
+def test_a_crowd_that_bounces_comes_to_rest(monkeypatch):
+    """Thirty discs with e = .5 (inelastic collapse): a bounded number of impacts a step, and energy falls."""
+    case, hops = CASES["heap"](n=30, dimension=2, duration=2.0), {}
+    for body in case.scene.bodies:
+        object.__setattr__(body, "restitution", 0.5)
+    hop = impact_time.hop
+
+    def counted(sim, contacts, h, left, early):
+        step = round((sim.now + left) / FRAME)
+        hops[step] = hops.get(step, 0) + 1
+        return hop(sim, contacts, h, left, early)
+
+    monkeypatch.setattr("reference.simulators.velocity_lcp.hop", counted)
+    run = simulate(case.scene, case.duration, FRAME)
+    assert run.status == "ok" and np.abs(run.velocity[-1]).max() == 0
+    assert rise(run.energy()) < 1e-12 * run.energy()[0] and run.penetration().max() < 1e-8 * 0.1
+    assert 20 < max(hops.values()) <= 60  # thirty discs once each, and thirty times more
 
 
 @pytest.mark.parametrize("dt", [1 / 30, 1 / 60, 1 / 500])
