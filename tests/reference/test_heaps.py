@@ -66,7 +66,7 @@ def depths(run):
     between = np.linalg.norm(x[:, balls, None] - x[:, None, balls], axis=-1) - r[:, None] - r
     between[:, range(len(r)), range(len(r))] = np.inf
     gaps = [between.min(axis=(1, 2))]
-    for i, body in enumerate(declared):
+    for body in declared:
         if body.static:
             gaps.append(((x[:, balls] - body.position) @ body.shape.normal - r).min(axis=1))
     return np.maximum(-np.min(gaps, axis=0), 0.0)
