@@ -17,8 +17,7 @@ passes don't halve the error, or have too many states to try, they begin again: 
 (``cone_interior``); from where passes with friction's *limit* lead (``coulomb``); and at last from where
 sweeps over the contacts lead (``contact_sweeps``). The best of all these counts.
 
-A heap of a thousand contacts has no need of twelve digits, and asking for them takes several times as long.
-There sweeps are enough, if passes don't get there at once (``large``); an arch or a pyramid's passes do.
+Where few digits are asked for, sweeps give them sooner: of many contacts they are tried first.
 
 A face that slides and turns in space may have many answers. The path from inside ends at one of them, and the
 nearer to its end, the more it is rounding that says which. There the passes take over early.
@@ -49,8 +48,8 @@ NEAR = 1e-4  # ε at first
 WEIGHTS = (1e-6, 1e-8, 1e-10, 1e-4, 1e-2)  # and then: smaller where passes are slow, larger to polish, for
 POLISH = (1e-4, 1e-3, 1e-2, 1e-6, 1e-8, 1e-4, 1e-2)  # w's rounding is 1e-16/ε of λ; and from near the answer
 SINGLE, TURNS = 2, 10  # so few contacts are first solved one by one, exactly, and so often
-COARSE, MOST_TURNS = 1e-5, 50  # where such an error is enough, sweeps may do, some times as many
-ALL, GOOD = 1 << 62, 1e-3  # contacts, and the error at which more than ``large`` may be left
+COARSE, MOST_TURNS = 1e-5, 100  # where such an error is enough, sweeps may do, some times as many,
+MANY_CONTACTS = 1000  # and are tried first
 LIMITED = (1e-8, 1e-10, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-4)  # of passes with limits: λ must get somewhere
 ROUGH, CLOSE = 1e-3, 1e-8  # errors until which to come from inside
 SWEEPS, MOST_STARTS = 64, 6  # sweeps at first, then twice as many each time; how often passes begin again
@@ -60,16 +59,13 @@ KNOWN = 1e-13  # share of the terms of w to which w is known: rounding, as the w
 
 
 @compiled_apart
-def cone_newton_kernel(
-    rows, M, free, softness, coulomb, λ, tolerance, max_iterations, history, near=NEAR, large=ALL
-):
+def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iterations, history, near=NEAR):
     """u (n, k) and λ (m,), which holds the start and is changed in place. M (n, k, k), free (n, k).
 
     softness (B,): γ of each block's first row, which gives way: w = J u + c + γ λ. Returns (u, passes,
     error): how far they are from the law (``coulomb.breach``) and from M (u − free) = Jᵀ λ, m/s, over the
-    worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with. large: of
-    more contacts an error of GOOD is enough, if passes don't find the answer at once. Where sweeps get
-    there at first, they count as one pass.
+    worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with. Where sweeps
+    get there at first, they count as one pass.
     """
     blocks, room = len(rows.μ), make_room(rows, *free.shape)
     moves, u = np.empty(rows.J.shape), free.copy()
@@ -82,13 +78,13 @@ def cone_newton_kernel(
         return u, 0, 0.0
     add_rows(rows.bodies, moves, λ, u)
     best = Best(λ.copy(), u.copy(), np.full(1, np.inf))
-    enough = max(tolerance, GOOD) if blocks > large else tolerance
-    if blocks <= SINGLE or (blocks > large and tolerance >= COARSE):
+    first = blocks <= SINGLE or (blocks > MANY_CONTACTS and tolerance >= COARSE)
+    if first:
         error = by_sweeps(rows, free, moves, softness, coulomb, λ, u, tolerance * scale, room.size) / scale
         if keep_best(best, λ, u, error) <= tolerance:
             history[:1] = error
             return u, 1, error
-    elif enough >= COARSE:  # sweeps may have to begin from here
+    elif tolerance >= COARSE:  # sweeps may have to begin from here
         keep_best(best, λ, u, breach(rows, room.size, softness, coulomb, λ, velocities(rows, u)) / scale)
     if coulomb:
         begin_shift(rows, velocities(rows, u), room.law)
@@ -96,18 +92,18 @@ def cone_newton_kernel(
         rows, M, free, softness, coulomb, λ, u, near, WEIGHTS, FEW, room, best, tolerance, scale,
         max_iterations, history,
     )  # fmt: skip
-    if enough >= COARSE and best.error[0] > tolerance:
+    if tolerance >= COARSE and best.error[0] > tolerance and not first:
         λ[:] = best.λ
-        error = by_sweeps(rows, free, moves, softness, coulomb, λ, u, enough * scale, room.size)
+        error = by_sweeps(rows, free, moves, softness, coulomb, λ, u, tolerance * scale, room.size)
         keep_best(best, λ, u, error / scale)
     faces = coulomb and has_faces(rows)
     for start in range(0 if faces else 1, MOST_STARTS):
-        if best.error[0] <= max(enough, NEARLY if start > 2 else 0.0) or passes == max_iterations:
+        if best.error[0] <= max(tolerance, NEARLY if start > 2 else 0.0) or passes == max_iterations:
             break
         λ[:], u[:] = best.λ, best.u
         begin_again(start, rows, M, free, moves, softness, coulomb, λ, u, tolerance, scale, room)
         error = breach(rows, room.size, softness, coulomb, λ, velocities(rows, u)) / scale
-        if keep_best(best, λ, u, error) > tolerance and blocks <= large:
+        if keep_best(best, λ, u, error) > tolerance:
             passes += make_passes(
                 rows, M, free, softness, coulomb, λ, u, NEAR, POLISH, MANY, room, best, tolerance, scale,
                 max_iterations - passes, history[passes:],

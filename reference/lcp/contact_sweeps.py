@@ -12,7 +12,7 @@ import numpy as np
 from ..compiled import compiled, compiled_apart, inner
 from ..factored import add_row, row_times
 from .augmented import dot
-from .one_contact import solve_contact
+from .one_contact import principal, solve_in_axes
 
 
 @compiled_apart
@@ -89,8 +89,11 @@ def sweep_contacts(rows, moves, softness, coulomb, λ, u, tolerance, most):
 
     softness (B,): γ of each block's first row; u must be u_free + M⁻¹ Jᵀ λ. Returns (sweeps, worst change).
     """
-    own, q, worst = own_blocks(rows, moves, softness), np.zeros(3), np.inf
-    new = np.zeros(3)
+    own, q, new, worst = own_blocks(rows, moves, softness), np.zeros(3), np.zeros(3), np.inf
+    axes = np.empty((len(own), 4))
+    for block in range(len(own)):
+        A = own[block]
+        axes[block, 0], axes[block, 1], axes[block, 2], axes[block, 3] = principal(A[1, 1], A[1, 2], A[2, 2])
     for sweeps in range(most):
         worst = 0.0
         for block in range(len(rows.μ)):
@@ -103,8 +106,10 @@ def sweep_contacts(rows, moves, softness, coulomb, λ, u, tolerance, most):
             if rows.μ[block] < 0:
                 new[0] = min(max(-q[0] / A[0, 0], rows.lower[first]), rows.upper[first])
             else:
-                third = q[2] if size == 3 else 0.0
-                new[0], new[1], new[2] = solve_contact(A, q[0], q[1], third, rows.μ[block], coulomb)
+                third, x = q[2] if size == 3 else 0.0, axes[block]
+                new[0], new[1], new[2] = solve_in_axes(
+                    A, (x[0], x[1], x[2], x[3]), q[0], q[1], third, rows.μ[block], coulomb
+                )
             for a in range(size):
                 change = new[a] - λ[first + a]
                 worst = max(worst, abs(change) * A[a, a])

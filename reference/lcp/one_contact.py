@@ -14,32 +14,41 @@ For a given α the last is a linear system, (A + α diag(−κ, 1, 1)) λ = −q
 is a quartic in α. It needn't be written out: its root lies between bounds at whose ends G has two signs, so
 that bisection can't fail. For Coulomb's law these are 0 and ∞. There λ_t = 0 and λ_n = −q_n/A_nn > 0, so G
 < 0; at 0, where it would stick, λ is outside the cone, so G > 0. For the convex law the matrix is singular
-at one α₀; the root lies below α₀ if λ comes up to it from within the cone, else above.
+at one α₀; the root lies below α₀ if λ comes up to it from within the cone, else above. And G/‖λ_t‖ is nearly
+a straight line where n and t hardly couple, so that between these ends regula falsi (Illinois) is at the
+root after a few tries.
 
 What rounding leaves is 1e-16 times A's condition number. In the plane the second tangent is given a row of
 its own, which stays 0.
 
 Slides S10, S14; lectures/08_newton_lcp.md. Source: Bonnefon & Daviet, Quartic formulation of Coulomb 3D
 frictional contact, INRIA RT-0400 (2011), for the quartic; Daviet, Bertails-Descoubes & Boissieux, ACM TOG
-30 (2011) 139.
+30 (2011) 139; Dowell & Jarratt, BIT 11 (1971) 168 (Illinois).
 """
 
 import numpy as np
 
 from ..compiled import compiled
 
-_BISECTIONS = 200
+_BISECTIONS, _LINES = 200, 50
 _NARROW = 4e-16  # of α: two numbers side by side
+_EXACT = 2e-16  # G/‖λ_t‖ that is only rounding
 
 
 @compiled
 def solve_contact(A, q_n, q_1, q_2, μ, coulomb):
     """λ (three numbers) of one contact: A (3, 3) symmetric, positive; q the w that there is without λ."""
+    return solve_in_axes(A, principal(A[1, 1], A[1, 2], A[2, 2]), q_n, q_1, q_2, μ, coulomb)
+
+
+@compiled
+def solve_in_axes(A, axes, q_n, q_1, q_2, μ, coulomb):
+    """``solve_contact``, given the ``principal`` axes of A_tt."""
     if q_n >= (0.0 if coulomb else μ * np.hypot(q_1, q_2)):
         return 0.0, 0.0, 0.0
     if μ == 0:
         return -q_n / A[0, 0], 0.0, 0.0
-    c, s, s_1, s_2 = principal(A[1, 1], A[1, 2], A[2, 2])
+    c, s, s_1, s_2 = axes
     # in the axes of A_tt, which are turned by the angle of (c, s), all but the first row is diagonal
     a_1, a_2 = c * A[0, 1] + s * A[0, 2], c * A[0, 2] - s * A[0, 1]
     p_1, p_2 = c * q_1 + s * q_2, c * q_2 - s * q_1
@@ -94,7 +103,7 @@ def surface(α, block):
 
 @compiled
 def find_slip(block):
-    """The α > 0 at which λ lies on the cone: G > 0 at one end, < 0 at the other, and bisection between."""
+    """The α > 0 at which λ lies on the cone, from between two at which G has two signs."""
     s_1, κ, outside, inside = block[3], block[9], 0.0, 1.0
     if κ > 0:
         inside = singular(block)
@@ -103,12 +112,12 @@ def find_slip(block):
             outside, grow = 2 * inside + s_1, 0
             while beyond(outside, block) <= 0 and grow < 1000:
                 outside, grow = 2 * outside, grow + 1
-            return bisect(inside, outside, block, True)
+            return close_in(inside, outside, block, True)
     else:
         inside, grow = s_1, 0
         while surface(inside, block)[0] > 0 and grow < 1000:
             outside, inside, grow = inside, 2 * inside, grow + 1
-    return bisect(inside, outside, block, False)
+    return close_in(inside, outside, block, False)
 
 
 @compiled
@@ -134,15 +143,30 @@ def singular(block):
 
 
 @compiled
-def bisect(inside, outside, block, past):
+def outside_by(α, block, past):
+    """G/‖λ_t‖, or past the singular α what ``beyond`` tells instead of G: positive outside the cone."""
+    G, _, n, t_1, t_2 = surface(α, block)
+    t = np.hypot(t_1, t_2)
+    if past:
+        G = t + block[8] * n
+    return G / t if t > 0 else (-1.0 if G <= 0 else 1.0)
+
+
+@compiled
+def close_in(inside, outside, block, past):
     """The α between two at which λ is inside the cone and outside it: λ is on the cone."""
-    for _ in range(_BISECTIONS):
-        α = 0.5 * (inside + outside)
-        if abs(outside - inside) <= _NARROW * α:
+    low, high, stayed = outside_by(inside, block, past), outside_by(outside, block, past), 0
+    for lines in range(_LINES + _BISECTIONS):
+        if low == 0 or abs(outside - inside) <= _NARROW * max(inside, outside):
             break
-        G = beyond(α, block) if past else surface(α, block)[0]
+        α = inside + (outside - inside) * (low / (low - high))
+        if lines >= _LINES or not min(inside, outside) < α < max(inside, outside):
+            α = 0.5 * (inside + outside)
+        G = outside_by(α, block, past)
+        if abs(G) <= _EXACT:
+            return α
         if G <= 0:
-            inside = α
+            inside, low, high, stayed = α, G, 0.5 * high if stayed == 1 else high, 1
         else:
-            outside = α
+            outside, high, low, stayed = α, G, 0.5 * low if stayed == -1 else low, -1
     return inside

@@ -70,9 +70,10 @@ def push(solve, system, state, work, speeds, middle, contacts, half, held, known
     M, before, free = middle.M, middle.before, middle.free
     rows, gap, key, λ = prepare(speeds, middle, contacts, half, held, known, pushed, h, limits)
     moving = leave_out_rest(rows, M, before, free, λ, limits.tolerance)
-    here = np.zeros(2)
+    here = worst.copy()
+    here[:2] = 0.0
     found = solve(moving.rows, moving.M, moving.free, moving.λ, limits, here)
-    worst[0], worst[1] = max(worst[0], here[0]), max(worst[1], here[1])
+    worst[0], worst[1], worst[2] = max(worst[0], here[0]), max(worst[1], here[1]), here[2]
     after = put_back(moving, found, λ, free)
     finish(system, state, work, M, before, rows, gap, free, after, λ, h, limits, here[1])
     return key, spread(rows, λ, len(key), state.x.shape[1]), λ

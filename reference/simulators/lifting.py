@@ -80,7 +80,7 @@ def raise_apart(solve, state, contacts, held, speeds, label, way, limits):
     """
     rows, δ, λ = upright_rows(contacts, held, speeds.before)
     limits = Limits(how_well(rows), limits.iterations, limits.closed, limits.bodies, limits.warm)
-    δ = solve(rows, speeds.M, δ, λ, limits, np.zeros(2))
+    δ = solve(rows, speeds.M, δ, λ, limits, np.zeros(3))
     join_islands(label, rows.bodies)
     displace_by(state, δ)
     for i in range(len(way)):

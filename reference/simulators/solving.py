@@ -13,14 +13,15 @@ Slides S12–S14, S17; lectures/05_contact.md. Source: Stewart & Trinkle, Int. J
 
 import numpy as np
 
-from ..compiled import compiled
+from ..compiled import compiled, compiled_apart
 from ..factored import Factored
 from ..lcp import LCP, SOLVERS, ConeProblem
-from ..lcp.cone_newton import NEAR, ContactRows, cone_newton_kernel
+from ..lcp.cone_newton import ContactRows, cone_newton_kernel
 from ..lcp.contact_sweeps import fill_moves
 from .impacts import rates
 
-LARGE = 1000  # contacts in one step: more are left to an error of 1e-3, where Newton's method fails at once
+LARGE = 1000  # contacts: where Newton's method fails on more,
+GOOD, PATIENCE = 1e-3, 30  # so many problems after that are left at this error, which sweeps reach
 USABLE = 1e-6  # a residual with which a run goes on, though the method didn't come to its end
 DEFAULT_SOLVERS = {"cone": "cone_newton", "box": "lemke", "pyramid": "lemke"}  # exact
 
@@ -36,22 +37,38 @@ class Unsolvable(Exception):
 @compiled
 def newton_in_cones(rows, M, free, λ, limits, worst):
     """``StepSolver`` by ``cone_newton``, for ``flight``; limits: its tolerance and iterations."""
+    rigid = np.zeros(len(rows.μ))
+    return solve_patiently(rows, M, free, rigid, λ, limits.tolerance, limits.iterations, worst)
+
+
+@compiled_apart
+def solve_patiently(rows, M, free, softness, λ, tolerance, iterations, worst):
+    """The velocities u⁺, and λ in place, by ``cone_newton``. worst (3,): (passes, error), and how many large
+    problems more are left at an error of GOOD.
+
+    In a large heap that moves, twelve digits take ten times as long as three, if they are found at all. So
+    it is only tried now and then: a pyramid of any size has them from its second step on.
+    """
+    large = len(rows.μ) > LARGE
+    waits = large and worst[2] > 0
+    enough = max(tolerance, GOOD) if waits else tolerance
     after, passes, error = cone_newton_kernel(
-        rows, M, free, np.zeros(len(rows.μ)), True, λ, limits.tolerance, limits.iterations, np.zeros(0),
-        NEAR, LARGE,
-    )  # fmt: skip
+        rows, M, free, softness, True, λ, enough, iterations, np.zeros(0)
+    )
+    if large:
+        worst[2] = worst[2] - 1 if waits else (PATIENCE if error > tolerance else 0)
     worst[0], worst[1] = max(worst[0], passes), max(worst[1], error)
     return after
 
 
 class StepSolver:
     """A run's way from rows to velocities; it counts what stays unsolved. ``worst``: (passes, residual) since
-    somebody set it to 0.
+    somebody set them to 0, and what ``solve_patiently`` counts.
     """
 
     def __init__(self, solver, friction, tolerance, iterations):
         self.name, self.friction, self.limits = solver, friction, (tolerance, iterations)
-        self.worst, self.solved, self.unsolved = np.zeros(2), 0, {}
+        self.worst, self.solved, self.unsolved = np.zeros(3), 0, {}
 
     def __call__(self, rows, M, free, λ, softness=None, time=0.0):
         """The velocities u⁺ (n, k) nearest to the free ones (n, k) that the rows allow; λ (m,), the start,
@@ -61,11 +78,7 @@ class StepSolver:
             return free.copy()
         if self.name == "cone_newton":
             gives = np.zeros(len(rows.μ)) if softness is None else softness[rows.block[:-1]]
-            after, passes, error = cone_newton_kernel(
-                rows, M, free, gives, True, λ, *self.limits, np.zeros(0), NEAR, LARGE
-            )
-            self.note(passes, error)
-            return after
+            return solve_patiently(rows, M, free, gives, λ, *self.limits, self.worst)
         if not np.isfinite(free).all():
             raise Unsolvable("diverged", f"velocities stopped being finite under {self.name} in")
         A = factors(rows, M, softness)
@@ -78,7 +91,7 @@ class StepSolver:
 
     def note(self, passes, error):
         """Keep the worst."""
-        self.worst[:] = max(self.worst[0], passes), max(self.worst[1], error)
+        self.worst[:2] = max(self.worst[0], passes), max(self.worst[1], error)
 
     def judge(self, solution, time):
         """Count what is unsolved; Unsolvable where its λ is of no use."""

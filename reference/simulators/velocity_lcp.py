@@ -90,8 +90,8 @@ class VelocityLCP:
                 return done
             done += new
             if record is not None and done == due:
-                record[row], solves[row] = self.state.y, self.worst
-                self.worst[:], row = 0, row + 1
+                record[row], solves[row] = self.state.y, self.worst[:2]
+                self.worst[:2], row = 0, row + 1
                 if noted:
                     self.touched.close(self.within(2 * self.closed), self.closed)
             if not noted:

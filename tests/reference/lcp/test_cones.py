@@ -136,7 +136,9 @@ def test_nothing_wrong_is_called_solved(seed, method, law, size, ridge, contacts
     A, b = G @ G.T + ridge * np.eye(n), random.integers(-2, 3, size=n)
     problem = ConeProblem(A, b, random.choice([0, 0.5, 1, 3], size=contacts), law=law, dimension=size)
     solution = method(problem, max_iterations=100)
-    assert solution.solved == (solution.residual <= 1e-10)
+    hidden = solution.reason.startswith("The residual looks like")  # by the rounding of a huge λ
+    assert solution.solved == (solution.residual <= 1e-10 and not hidden)
+    assert not hidden or (solution.status == "diverged" and np.abs(solution.lam).max() > 1e6)
     if solution.solved:
         assert violation(problem, solution.lam) < 1e-6 * max(1, np.abs(solution.lam).max(initial=0)) ** 2
 
