@@ -52,20 +52,24 @@ COARSE, MOST_TURNS = 1e-5, 100  # where such an error is enough, sweeps may do, 
 MANY_CONTACTS = 1000  # and are tried first
 LIMITED = (1e-8, 1e-10, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-4)  # of passes with limits: λ must get somewhere
 ROUGH, CLOSE = 1e-3, 1e-8  # errors until which to come from inside
-SWEEPS, MOST_STARTS = 64, 6  # sweeps at first, then twice as many each time; how often passes begin again
+SWEEPS = 64  # at first; then twice as many each time
+FROM_INSIDE, MOST_STARTS = 2, 6  # how often passes begin again: from inside, and in all
 NEARLY = 1e-9  # an error from which beginning again leads nowhere: it is rounding
 NEARER = (NEAR, NEAR, 1e-4, 1e-4, 1e-3, 1e-2, 1e-2)  # to polish λ itself, as ``problem.residual`` asks
 KNOWN = 1e-13  # share of the terms of w to which w is known: rounding, as the weights ρ enlarge it
 
 
 @compiled_apart
-def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iterations, history, near=NEAR):
+def cone_newton_kernel(
+    rows, M, free, softness, coulomb, λ, tolerance, max_iterations, history, near=NEAR, thorough=True
+):
     """u (n, k) and λ (m,), which holds the start and is changed in place. M (n, k, k), free (n, k).
 
     softness (B,): γ of each block's first row, which gives way: w = J u + c + γ λ. Returns (u, passes,
     error): how far they are from the law (``coulomb.breach``) and from M (u − free) = Jᵀ λ, m/s, over the
-    worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with. Where sweeps
-    get there at first, they count as one pass.
+    worst free |w|; history gets that of each pass, as far as it is long. near: ε to begin with. thorough:
+    whether to go on with passes that take long, and begin again from everywhere. Where sweeps get there at
+    first, they count as one pass.
     """
     blocks, room = len(rows.μ), make_room(rows, *free.shape)
     moves, u = np.empty(rows.J.shape), free.copy()
@@ -97,16 +101,17 @@ def cone_newton_kernel(rows, M, free, softness, coulomb, λ, tolerance, max_iter
         error = by_sweeps(rows, free, moves, softness, coulomb, λ, u, tolerance * scale, room.size)
         keep_best(best, λ, u, error / scale)
     faces = coulomb and has_faces(rows)
-    for start in range(0 if faces else 1, MOST_STARTS):
-        if best.error[0] <= max(tolerance, NEARLY if start > 2 else 0.0) or passes == max_iterations:
+    for start in range(0 if faces else 1, MOST_STARTS if thorough else FROM_INSIDE):
+        enough = NEARLY if start > FROM_INSIDE else 0.0
+        if best.error[0] <= max(tolerance, enough) or passes == max_iterations:
             break
         λ[:], u[:] = best.λ, best.u
         begin_again(start, rows, M, free, moves, softness, coulomb, λ, u, tolerance, scale, room)
         error = breach(rows, room.size, softness, coulomb, λ, velocities(rows, u)) / scale
         if keep_best(best, λ, u, error) > tolerance:
             passes += make_passes(
-                rows, M, free, softness, coulomb, λ, u, NEAR, POLISH, MANY, room, best, tolerance, scale,
-                max_iterations - passes, history[passes:],
+                rows, M, free, softness, coulomb, λ, u, NEAR, POLISH, MANY if thorough else FEW, room, best,
+                tolerance, scale, max_iterations - passes, history[passes:],
             )  # fmt: skip
     λ[:] = best.λ
     return best.u, passes, best.error[0]
@@ -131,10 +136,10 @@ def by_sweeps(rows, free, moves, softness, coulomb, λ, u, wanted, size):
 @compiled_apart
 def begin_again(start, rows, M, free, moves, softness, coulomb, λ, u, tolerance, scale, room):
     """Another λ and u to begin with, from the best so far: in place. start: which way to get there."""
-    if start < 2:
+    if start < FROM_INSIDE:
         near = max(CLOSE if start else ROUGH, 0.1 * tolerance)
         start_inside(rows, M, free, coulomb, near, λ, u, room.size, scale, room.factor, room.out)
-    elif start == 2 and coulomb and has_faces(rows):
+    elif start == FROM_INSIDE and coulomb and has_faces(rows):
         for ε in LIMITED:
             renew_limit(rows, λ, room.law)
             solve_pass(rows, M, free, softness, False, λ, u, ε, room, tolerance * scale, MANY)

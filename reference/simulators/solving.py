@@ -16,7 +16,7 @@ import numpy as np
 from ..compiled import compiled, compiled_apart
 from ..factored import Factored
 from ..lcp import LCP, SOLVERS, ConeProblem
-from ..lcp.cone_newton import ContactRows, cone_newton_kernel
+from ..lcp.cone_newton import NEAR, ContactRows, cone_newton_kernel
 from ..lcp.contact_sweeps import fill_moves
 from .impacts import rates
 
@@ -50,13 +50,18 @@ def solve_patiently(rows, M, free, softness, λ, tolerance, iterations, worst):
     it is only tried now and then: a pyramid of any size has them from its second step on.
     """
     large = len(rows.μ) > LARGE
-    waits = large and worst[2] > 0
-    enough = max(tolerance, GOOD) if waits else tolerance
+    waits, good, none = large and worst[2] > 0, max(tolerance, GOOD), np.zeros(0)
     after, passes, error = cone_newton_kernel(
-        rows, M, free, softness, True, λ, enough, iterations, np.zeros(0)
+        rows, M, free, softness, True, λ, good if waits else tolerance, iterations, none, NEAR, not large
     )
-    if large:
-        worst[2] = worst[2] - 1 if waits else (PATIENCE if error > tolerance else 0)
+    if waits:
+        worst[2] -= 1
+    elif large and error > tolerance:
+        worst[2] = PATIENCE
+        if error > good:
+            after, passes, error = cone_newton_kernel(
+                rows, M, free, softness, True, λ, good, iterations, none, NEAR, False
+            )
     worst[0], worst[1] = max(worst[0], passes), max(worst[1], error)
     return after
 
