@@ -23,9 +23,10 @@ def coast(fill_free, detect, raise_apart, push, system, state, work, speeds, mid
           pushed, t, h, steps, limits, worst, lifted, timeless):  # fmt: skip
     """Up to so many steps of h s from the time t; pushed: keys (c,) and forces (c, d) of the contacts before.
 
-    Returns how many are done; whether the last left the state as it was; ``pushed`` now; and the contacts,
-    half way, and the impulses of the last step. It ends before a step that is none of the ordinary, or whose
-    state would not be finite. lifted (2,): the energy that lifting added, J, is added to the first; the
+    Returns how many are done; whether the last left the state as it was; whether there was room for all
+    contacts after it, so that overlaps are lifted apart; ``pushed`` now; and the contacts, half way, and the
+    impulses of the last step. It ends before a step that is none of the ordinary, or whose state would not be
+    finite. lifted (2,): the energy that lifting added, J, is added to the first; the
     second is the deepest that stays in each other.
     """
     solids, grid, pairs, spare, raw = near.collider
@@ -49,7 +50,7 @@ def coast(fill_free, detect, raise_apart, push, system, state, work, speeds, mid
             lifted[0] += slow_down(system, state, start, had, way, label, speeds)
             fill_free(system, now, h, state, speeds)
         if done == steps or not (room and quiet(contacts, speeds, h, limits)):
-            return done, False, pushed, there, impulse
+            return done, False, room, pushed, there, impulse
         copy(state.y, before)
         half = contacts
         move(system, speeds.before, speeds.before, 0.5 * h, state, work)
@@ -64,13 +65,13 @@ def coast(fill_free, detect, raise_apart, push, system, state, work, speeds, mid
         )
         if not all_finite(state.y):
             copy(before, state.y)
-            return done, False, pushed, there, impulse
+            return done, False, True, pushed, there, impulse
         there, impulse = half, made
         if limits.warm:
             pushed = key, over(impulse, h)
         if timeless and same(before, state.y):
-            return done + 1, True, pushed, there, impulse
-    return steps, False, pushed, there, impulse
+            return done + 1, True, True, pushed, there, impulse
+    return steps, False, True, pushed, there, impulse
 
 
 @inner

@@ -121,7 +121,7 @@ class VelocityLCP:
     def coast_on(self, t, h, steps):
         """Up to so many ordinary steps, in which nothing strikes or overlaps; returns how many are done."""
         near, contacts = make_near(self.collider, self.d), self.collider.contacts
-        done, self.still, pushed, half, impulse = self.coast(
+        done, self.still, room, pushed, half, impulse = self.coast(
             self.system, self.state, self.work, self.speeds, self.middle, near, contacts,
             self.held.rows_with(*self.held.in_flight(h)), (self.key, self.force), t, h, steps, self.limits,
             self.worst, self.lifted, self.timeless,
@@ -129,6 +129,9 @@ class VelocityLCP:
         self.key, self.force = pushed
         if done and self.recording:
             self.touched.add(part(half, slice(0, len(impulse))), impulse)
+        if done and not room:
+            self.fill(t + done * h, h)
+            lift(self, self.find(h), h)
         return done
 
     def step(self, t, h):
