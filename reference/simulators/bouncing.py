@@ -9,10 +9,10 @@ hundredth of the step or less is taken for none. In the same way a landing witho
 where it is faster than the forces of a step can explain, and takes so much of the energy that it matters to
 the whole: any other happens at the end of the step in which it comes, within the flight.
 
-In a crowd each impact brings on others, without an end (inelastic collapse). So when ten times in a step
-bodies were struck that had been struck in it before, the rest of it is shared among the ``MOST_AGAIN`` that
-may be: what would touch within such a share touches now, and a rebound slower than what forces do to a body
-in that time is none.
+In a crowd each impact brings on others, without an end (inelastic collapse). So when often enough in a step
+bodies were struck that had been struck in it before (ten times; more where few contacts make little work),
+the rest of it is shared among some ``MORE``: what would touch within such a share touches now, and a rebound
+slower than what forces do to a body in that time is none.
 
 Slides S9, S10; lectures/05_contact.md. Source: McNamara & Young, Phys. Fluids A 4 (1992) 496 (the collapse).
 """
@@ -26,7 +26,8 @@ from ..lcp.contact_sweeps import divide_by_mass
 from .moving import scatter_velocities
 from .paying import energies
 
-EXACT, MOST_AGAIN = 10, 30  # impacts of a step that come again: so many each at its time; and in all
+EXACT, WORK, MORE = 10, 20_000, 20  # impacts of a step that come again: so many, or WORK/contacts² if that is
+# more, each at its time; then so many more
 SHORT = 1e-2  # of a step
 HARD = 0.5  # times what forces change the speed by in a step: a landing that is faster is hard
 MATTERS = 0.02  # of the energy of motion: a landing that takes less isn't worth a step of the whole scene
@@ -100,17 +101,34 @@ class Hits:
     """
 
     def __init__(self):
-        self.struck, self.again = False, 0
+        self.crowded = 0  # steps in which there was a crowd
+        self.begin()
 
-    def early(self, left):
-        """How long before its time the next impact will do, s: none; in a crowd a share of what is left."""
-        return left / (MOST_AGAIN - self.again) if self.again >= EXACT else 0.0
+    def begin(self):
+        """A step begins."""
+        self.struck, self.again, self.crowd = False, 0, False
+
+    def early(self, left, gap):
+        """How long before its time the next impact will do, s: 0; in a crowd a share of what is left.
+
+        gap (m,): of the contacts there are.
+        """
+        more = self.again - max(EXACT, WORK // max(len(gap), 1) ** 2)
+        if more < 0:
+            return 0.0
+        self.crowded += not self.crowd
+        self.crowd = True
+        return left / max(MORE - more, 1)
 
     def add(self, hit):
         """Count one more, which struck these bodies (n,). Returns whether it struck any."""
         self.again += bool(np.any(self.struck & hit) or not hit.any())
         self.struck = self.struck | hit
         return hit.any()
+
+    def told(self):
+        """What must be said of crowds, or ""."""
+        return f"in {self.crowded} steps impacts in a crowd were taken together" if self.crowded else ""
 
 
 def strike(sim, contacts, h, early):

@@ -48,7 +48,7 @@ class VelocityLCP:
         self.collider, self.held = make_collider(bodies, scene), Held(bodies)
         self.solver = StepSolver(settings.solver, settings.friction, settings.tolerance, settings.iterations)
         self.tells_unsolved = self.solver.name != "cone_newton"  # step by step, in ``note``
-        self.law, self.ended = IMPACTS[settings.impact], None
+        self.law, self.hits, self.ended = IMPACTS[settings.impact], Hits(), None
         self.warm, self.recording = settings.warm_start, settings.record_contacts
         force = external_force
         if scene.user_forces:
@@ -136,11 +136,13 @@ class VelocityLCP:
 
     def step(self, t, h):
         """One step of S9, from impact to impact."""
-        start, left, hits, hops = self.state.y.copy(), h, Hits(), 0
+        start, left, hops = self.state.y.copy(), h, 0
+        self.hits.begin()
         while left > 0:
             self.fill(t + h - left, left)
-            contacts, early = lift(self, self.find(left), left), hits.early(left)
-            if hits.add(strike(self, contacts, h, early)):
+            contacts = lift(self, self.find(left), left)
+            early = self.hits.early(left, contacts.gap)
+            if self.hits.add(strike(self, contacts, h, early)):
                 self.fill(t + h - left, left)
             done = hop(self, contacts, h, left, early) if early < left else self.fly(contacts, left)
             left, hops = left - done if done < left else 0.0, hops + 1
@@ -251,10 +253,8 @@ class VelocityLCP:
         gain, depth = self.lifted
         lifted = f"lifting overlaps apart has added {gain:.3g} J" if gain > 0 else ""
         stays = f"an overlap of up to {depth:.3g} m could not be lifted apart" if depth > 0 else ""
-        return "; ".join(part for part in (self.solver.told(), lifted, stays) if part)
+        return "; ".join(part for part in (self.solver.told(), self.hits.told(), lifted, stays) if part)
 
     def joint_forces(self, times, records):
         """ValueError: impulses of joints are not kept here."""
-        raise ValueError(
-            "joint_forces() needs a run under 'smooth': 'velocity_lcp' keeps no forces of joints"
-        )
+        raise ValueError("joint_forces() needs a run under 'smooth': 'velocity_lcp' has no forces of joints")

@@ -111,7 +111,29 @@ def test_a_crowd_that_bounces_comes_to_rest(monkeypatch):
     run = simulate(case.scene, case.duration, FRAME)
     assert run.status == "ok" and np.abs(run.velocity[-1]).max() == 0
     assert rise(run.energy()) < 1e-12 * run.energy()[0] and run.penetration().max() < 1e-8 * 0.1
-    assert 20 < max(hops.values()) <= 60  # thirty discs once each, and thirty times more
+    assert 20 < max(hops.values()) <= 100  # thirty discs once each, fifty times more, and twenty in shares
+    assert "impacts in a crowd were taken together" in run.reason
+
+
+@pytest.mark.parametrize("digits", [1, 2, 3])
+def test_galperins_billiard(digits):
+    """A heavy ball drives a light one to a wall: they collide π × 10^digits times, thousands within a step.
+
+    In the plane of √m u each pair of collisions is a turn by 2 arctan 10^−digits (Galperin 2003): after an
+    even number the speeds are those of the first turned so far.
+    """
+    ratio = 10.0**digits
+    scene = Scene(gravity=(0, 0))
+    scene.add(Plane((1, 0)), restitution=1)
+    scene.add(Disc(0.1), mass=1, position=(1, 0), restitution=1)
+    scene.add(Disc(0.1), mass=ratio**2, position=(2, 0), velocity=(-1, 0), restitution=1)
+    run = simulate(scene, 4.0, FRAME, record_every=240, record_contacts=False)
+    turn = 2 * np.arctan(1 / ratio)
+    count = int(np.pi * ratio)
+    heavy, light = np.cos(np.pi - (count + 1) // 2 * turn), ratio * np.sin(np.pi - (count + 1) // 2 * turn)
+    assert run.velocity[-1, 2, 0] == pytest.approx(heavy, abs=1e-9)
+    assert abs(run.velocity[-1, 1, 0]) == pytest.approx(abs(light), abs=1e-6 * ratio)
+    assert run.reason == ""
 
 
 @pytest.mark.parametrize("dt", [1 / 30, 1 / 60, 1 / 500])
