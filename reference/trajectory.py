@@ -162,7 +162,8 @@ class Trajectory:
         """
         if not self.settings.get("record_contacts", True):
             raise ValueError("penetration() needs contacts: run with record_contacts=True, not False")
-        return np.array([np.max(self.contacts[k].depth, initial=0.0) for k in range(len(self.time))])
+        deepest = [np.max(self.contacts[k].depth, initial=0.0) for k in range(len(self.time))]
+        return np.array(deepest) + 0.0  # no −0
 
     @cached_property
     def _spin(self):

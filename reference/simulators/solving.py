@@ -46,8 +46,8 @@ def solve_patiently(rows, M, free, softness, λ, tolerance, iterations, worst):
     """The velocities u⁺, and λ in place, by ``cone_newton``. worst (3,): (passes, error), and how many large
     problems more are left at an error of GOOD.
 
-    In a large heap that moves, twelve digits take ten times as long as three, if they are found at all. So
-    it is only tried now and then: a pyramid of any size has them from its second step on.
+    In a large heap that moves, twelve digits take much longer than three, if they are found at all. So they
+    are only asked for at times; a pyramid, however large, has them at the first try.
     """
     large = len(rows.μ) > LARGE
     waits, good, none = large and worst[2] > 0, max(tolerance, GOOD), np.zeros(0)

@@ -116,6 +116,14 @@ def test_what_is_recorded_is_lifted_apart_also_where_room_for_contacts_runs_out(
     assert run.penetration().max() < 1e-8 * 0.1
 
 
+def test_a_pyramid_of_thousands_of_contacts_is_no_heap():
+    """It is solved to the end, at once: nothing moves, and nothing need be said."""
+    case = CASES["pyramid"](base=30, duration=0.2)
+    run = simulate(case.scene, case.duration, FRAME)
+    assert len(run.contacts[1].depth) > 2000 and run.reason == ""
+    assert run.residual.max() <= 1e-12 and np.all(run.position == run.position[0])
+
+
 def measured(case):
     """(error, rise of energy, largest residual) of a whole run, which must be "ok"; printed with its cost."""
     start = time.process_time()
